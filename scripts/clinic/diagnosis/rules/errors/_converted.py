@@ -47,6 +47,13 @@ def converted(model: ReaderModel, element: Element, attribute: str) -> Iterator[
             )
     elif tag == "camera" and attribute in ("lookat", "target_pos"):
         yield from _seen(element, attribute)
+    elif tag == "geom" and attribute in ("radius", "length"):
+        radius, length = numbers(element.get("radius")), numbers(element.get("length"))
+        if len(radius) == len(length) == 1:
+            size = written([radius[0], length[0] / 2])
+            edits = remove_attribute(element, "radius"), remove_attribute(element, "length")
+            says = "size has the radius and half of the length."
+            yield (*edits, set_attribute(element, "size", size)), f"size={size!r}", says
     elif attribute == "rpy" and not any(element.get(each) for each in ORIENTATIONS):
         yield from _turned(element)
     elif tag == "freejoint":

@@ -1,4 +1,4 @@
-"""A value that MuJoCo does not take: a reversed range, a size of zero, an axis of zero, a word it does not know.
+"""A value that MuJoCo does not take: a `limited` range reversed, a size or an axis of zero, a word it does not know.
 
 Bad:
 
@@ -68,10 +68,10 @@ ADVICE = {
     "plane size": "size is half the length, half the width (0 for no end) and the distance of the grid's lines, not 0.",
     "fromto": "Both ends are the same point; the second is moved by 0.1 m.",
     "zero quaternion": "1 0 0 0 does not turn.",
-    "orientation|at most one of": "One of them can be given; the last is taken off.",
+    "multiple orientation|at most one of": "One of them can be given; the last is taken off.",
     "both": "One of them is enough.",
     "inheritrange": "It takes the range of the joint or tendon that is driven, for position, intvelocity and pid.",
-    "volume is|too small|coplanar": "A shell has the mass in its surface.",
+    "volume is|too small|coplanar|orientation": "A shell has the mass in its surface.",
     "mocap": "A mocap body is a child of the world and has no joint.",
     "global coordinates": "Without it positions are taken as local, which they are not in a model written so.",
     "optional suffix": "Memory is a whole number of bytes with K, M, G: 10M.",
@@ -116,9 +116,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _of_its_joint(model, said)
     yield from remedied(model, VALUES)
     for element in meant(model):
-        for edit, now in _edits(said, element, model.source.value(element, "range") or "0"):
+        given = {name: model.source.value(element, name) or "" for name in ("type", "size", "range")}
+        for edit, now in _edits(said, element, given):
             value = {"set": edit.value, "delete": f"<{element.tag}> removed"}.get(edit.action, "left out")
-            says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
+            says = f"{said.rstrip('.')}. {_advice(said, element, edit, given['type'])}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
 
 
@@ -145,7 +146,7 @@ def _of_its_joint(model: ReaderModel, said: str) -> Iterator[Suspect]:
             )
 
 
-def _advice(said: str, element: Element, edit: Edit) -> str:
+def _advice(said: str, element: Element, edit: Edit, kind: str) -> str:
     """What MuJoCo wants in the place of the value, in a sentence."""
     if edit.action == "delete":
         return "A body without a joint is fixed to its parent; one that moves freely has a <freejoint/>."
@@ -154,7 +155,7 @@ def _advice(said: str, element: Element, edit: Edit) -> str:
     if "keyword" in said:
         return f"{edit.attribute} of <{element.tag}> takes none that is like it; without it the default holds."
     if re.search(r"size \d+ must be positive", said):
-        return SIZES.get(element.get("type", "sphere"), "")
+        return SIZES.get(kind or "sphere", "")
     if "range" in said and edit.attribute == "limited":
         return "What is limited needs a range."
     return next((says for part, says in ADVICE.items() if re.search(part, said)), "")
@@ -176,11 +177,11 @@ def _positive(value: str) -> str:
     return " ".join(each.lstrip("-") if float(each) else "0.001" for each in value.split())
 
 
-def _edits(said: str, element: Element, written: str) -> Iterator[tuple[Edit, str]]:
+def _edits(said: str, element: Element, given: dict[str, str]) -> Iterator[tuple[Edit, str]]:
     if "keyword" in said or "data attributes must be in order" in said or "joint type in URDF" in said:
         yield from _words(said, element)
     else:
-        yield from _numbers(said, element, written)
+        yield from _numbers(said, element, given)
 
 
 def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
@@ -211,8 +212,8 @@ def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
         yield from (put("type", value) for value in URDF.get(wrong) or nearest(wrong, URDF_TYPES.split()) or ["fixed"])
 
 
-def _numbers(said: str, element: Element, written: str) -> Iterator[tuple[Edit, str]]:
-    """The number that may have been meant, or none; `written` is the range, be it that of a default class."""
+def _numbers(said: str, element: Element, given: dict[str, str]) -> Iterator[tuple[Edit, str]]:
+    """The number that may have been meant, or none; `given` has what a default class says, too."""
 
     def put(attribute: str, value: str) -> tuple[Edit, str]:
         return set_attribute(element, attribute, value), element.get(attribute, "nothing")
@@ -239,17 +240,17 @@ def _numbers(said: str, element: Element, written: str) -> Iterator[tuple[Edit, 
     elif "has `range` but not `limited`" in said or "but not `" in said:
         yield put(re.findall(r"but not `(\w+)`", said)[0], "true")
     elif "range[0] should be 0" in said:
-        yield put("range", f"0 {written.rsplit(maxsplit=1)[-1]}")
+        yield put("range", f"0 {(given['range'] or '0').rsplit(maxsplit=1)[-1]}")
     elif "axis too small" in said:
         yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):
-        sizes = [abs(float(number)) or 0.01 for number in (element.get("size") or "0.01").split()]
+        sizes = [abs(float(number)) or 0.01 for number in (given["size"] or "0.01").split()]
         count = int(re.findall(r"size (\d+)", said)[0])
         for length in (max(len(sizes), count + 1), 3):
             yield put("size", " ".join(f"{number:g}" for number in (sizes + sizes[-1:] * 3)[:length]))
     elif "zero quaternion" in said:
         yield put("quat", "1 0 0 0")
-    elif "orientation" in said or "at most one of" in said:
+    elif "multiple orientation" in said or "at most one of" in said:
         given = [name for name in element.attributes if name in said or name in ORIENTATIONS]
         yield from ((remove_attribute(element, name), element.get(name)) for name in given[::-1])
     elif "both" in said and "defined" in said:

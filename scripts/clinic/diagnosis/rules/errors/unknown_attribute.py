@@ -99,7 +99,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits = _renamed(element, attribute, name)
             if name not in element.attributes and _known(model, element, name) and not _refused(model, edits, name):
                 says = f"This MuJoCo knows no {attribute!r} there, but it knows {name!r}."
-                yield mends(element, edits, says, attribute=attribute, now=now, value=f"{name}={now!r}")
+                yield mends(element, edits, says, attribute=attribute, now=now, value=f"{name}={edits[1].value!r}")
                 return
         says = f"This MuJoCo knows no {attribute!r} at <{element.tag}>."
         yield mends(
@@ -109,7 +109,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _renamed(element: Element, attribute: str, name: str) -> tuple[Edit, ...]:
-    return (remove_attribute(element, attribute), set_attribute(element, name, element.get(attribute)))
+    value = element.get(attribute)
+    value += " 1" * (name == "rgba" and len(value.split()) == 3)
+    return (remove_attribute(element, attribute), set_attribute(element, name, value))
 
 
 def _known(model: ReaderModel, element: Element, name: str) -> bool:

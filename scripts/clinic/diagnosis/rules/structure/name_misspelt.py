@@ -57,8 +57,9 @@ UNPLANTED = "what a name is to be, only its siblings tell"
 
 KINDS = ("body", "joint", "actuator", "sensor", "site")
 LETTERS, OFTEN = 5, 4
-OWN = {"waist", "wrist", "angle", "ankle", "plane", "plate", "black", "block", "track", "truck", "trunk", "spring",
-       "string", "crank", "crane", "shelf", "shell", "shaft", "shift", "slider", "spider"}  # alike, and right  # fmt: skip
+OWN = {  # words that are alike, and right
+       "waist", "wrist", "angle", "ankle", "plane", "plate", "black", "block", "track", "truck", "trunk", "spring",
+       "string", "crank", "crane", "shelf", "shell", "shaft", "shift", "slider", "spider"}  # fmt: skip
 WORD = re.compile(r"[a-z]+|[A-Z]+(?![a-z])|[A-Z][a-z]+")
 
 

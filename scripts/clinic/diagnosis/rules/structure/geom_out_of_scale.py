@@ -71,7 +71,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now = model.value("geom", geom, "size") or ""
         value = written([scale * x if 2 * x > thickness(of, geom) / times else x for x in map(float, now.split())])
         edits = model.set("geom", [geom], "size", value) if value else ()
-        says = f"It is {times:.3g} times as thick as the box around the {len(others)} others of its mechanism is long."
+        says = (
+            f"It is {times:.3g} times as thick as the box around the {len(others)} others of its mechanism is across."
+        )
         probe = Probe("a geom's thickness", "of the box around the others", _times, (geom,), dynamic=False)
         yield Suspect((of.name("geom", geom),), "size", now, value, edits, probe, LARGE, says, "below 2")
 

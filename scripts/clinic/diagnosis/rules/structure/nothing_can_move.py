@@ -64,7 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
     names = [of.name("body", body) for body in bodies] or [of.name("geom", geom) for geom in geoms]
     if names:
-        says = f"The model has no joint: {len(names)} of its parts hang in the air and gravity does nothing to them."
+        says = f"The model has no joint, and gravity does nothing to what hangs in the air: {len(names)} of its parts."
         probe = Probe("parts that nothing can move", "", _still, dynamic=False)
         yield Suspect(tuple(names), "freejoint", "left out", FREE_JOINT, edits, probe, 0.5, says, "a free joint each")
 

@@ -94,7 +94,7 @@ def _pulled_apart(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("greatest gap of what is held together, 2 s after letting go", "m", _widest, tuple(apart))
     now = " ".join(f"{x:g}" for x in of.row("eq_solref", worst, 2))
     one, other = (of.name("site" if sited(of, worst) else "body", each) for each in held(of, worst))
-    says = f"{one} and {other} are {1000 * apart[worst]:.3g} mm apart where the equality holds them together."
+    says = f"{one} and {other} are {1000 * apart[worst]:.3g} mm apart where the equality is to hold them together."
     edits, most = model.set("equality", list(apart), "solref", value), apart[worst] / 2
     names = tuple(of.name("equality", each) for each in apart)
     yield Suspect(names, "solref", now, value, edits, probe, most, says, "a few millimetres")

@@ -101,6 +101,11 @@ VALUES = (
         ("builtin=flat;width=8;height=8", "type=2d;builtin=flat;width=8;height=8"),
     ),
     Remedy(
+        "Cannot load 2D texture from separate files",
+        "A texture of type 2d is one file or a builtin pattern; a grey one is put in.",
+        ("type=cube", "builtin=flat;width=8;height=8"),
+    ),
+    Remedy(
         "Invalid (?:width|height) of builtin texture",
         "A builtin texture needs width and height in pixels.",
         ("width=100", "height=100", "width=100;height=100"),

@@ -94,7 +94,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for element in model.source.elements("compiler") if "but not `" in said else ():
         if element.get("autolimits") == "false":
             taken = (remove_attribute(element, "autolimits"),)
-            yield mends(element, taken, f"{said}.", attribute="autolimits", now="false", value="left out")
+            yield mends(element, taken, said, attribute="autolimits", now="false", value="left out")
     if "flex elasticity is no longer integrated" in said:
         edits = model.option("integrator", "discrete")
         for element in model.source.elements("option") if edits else ():

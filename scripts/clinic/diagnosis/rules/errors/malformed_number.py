@@ -47,7 +47,7 @@ UNITS = {"mm": 1e-3, "cm": 1e-2, "g": 1e-3, "ms": 1e-3}
 WORD = re.compile(
     r"([-+]?)((?:\d+\.?\d*|\.\d+)?(?:[eE][-+]?\d+)?)\*?(pi)?(?:/(\d+\.?\d*))?(mm|cm|m|kg|g|ms|s|deg|rad)?"
 )
-ANGLES = ("euler", "axisangle", "range", "ref", "springref")
+ANGLES = ("euler", "axisangle", "range", "ref", "springref", "rpy", "lower", "upper")
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 

@@ -1,7 +1,7 @@
 """An angle of a body, geom, site or camera is in degrees where the model reads radians, or the other way.
 
-`<compiler angle="radian"/>` is for all of `euler`, `axisangle` and `range`: 90 is then 14 turns and a bit. Without it
-1.5708 are 1.6 degrees.
+`<compiler angle="radian"/>` is for all of `euler`, `axisangle` and the `range` of hinges and balls: 90 is then 14 turns
+and a bit. Without it 1.5708 are 1.6 degrees.
 
 Bad:
 

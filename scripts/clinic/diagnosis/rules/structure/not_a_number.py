@@ -1,8 +1,7 @@
 """A number in the text is `nan`, and MuJoCo takes it.
 
-Exporters write `nan` where they divided by zero. The compiler refuses it in the `size` of a geom; in `pos`, `quat`,
-`euler`, `rgba`, `damping` and others it warns once, `XML contains a 'NaN'`, and compiles. Where it stands it does not
-say.
+Exporters write `nan` where they divided by zero. The compiler refuses it in the `size` of a geom. In `pos`, `quat`,
+`euler`, `rgba`, `damping` and others it compiles, with a warning, `XML contains a 'NaN'`, that does not say where.
 
 Bad:
 

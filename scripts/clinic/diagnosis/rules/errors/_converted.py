@@ -51,9 +51,9 @@ def converted(model: ReaderModel, element: Element, attribute: str) -> Iterator[
         radius, length = numbers(element.get("radius")), numbers(element.get("length"))
         if len(radius) == len(length) == 1:
             size = written([radius[0], length[0] / 2])
-            edits = remove_attribute(element, "radius"), remove_attribute(element, "length")
+            gone = remove_attribute(element, "radius"), remove_attribute(element, "length")
             says = "size has the radius and half of the length."
-            yield (*edits, set_attribute(element, "size", size)), f"size={size!r}", says
+            yield (*gone, set_attribute(element, "size", size)), f"size={size!r}", says
     elif attribute == "rpy" and not any(element.get(each) for each in ORIENTATIONS):
         yield from _turned(element)
     elif tag == "freejoint":

@@ -116,10 +116,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _of_its_joint(model, said)
     yield from remedied(model, VALUES)
     for element in meant(model):
-        given = {name: model.source.value(element, name) or "" for name in ("type", "size", "range")}
-        for edit, now in _edits(said, element, given):
+        by_class = {name: model.source.value(element, name) or "" for name in ("type", "size", "range")}
+        for edit, now in _edits(said, element, by_class):
             value = {"set": edit.value, "delete": f"<{element.tag}> removed"}.get(edit.action, "left out")
-            says = f"{said.rstrip('.')}. {_advice(said, element, edit, given['type'])}".strip()
+            says = f"{said.rstrip('.')}. {_advice(said, element, edit, by_class['type'])}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
 
 
@@ -177,11 +177,11 @@ def _positive(value: str) -> str:
     return " ".join(each.lstrip("-") if float(each) else "0.001" for each in value.split())
 
 
-def _edits(said: str, element: Element, given: dict[str, str]) -> Iterator[tuple[Edit, str]]:
+def _edits(said: str, element: Element, by_class: dict[str, str]) -> Iterator[tuple[Edit, str]]:
     if "keyword" in said or "data attributes must be in order" in said or "joint type in URDF" in said:
         yield from _words(said, element)
     else:
-        yield from _numbers(said, element, given)
+        yield from _numbers(said, element, by_class)
 
 
 def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
@@ -212,8 +212,8 @@ def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
         yield from (put("type", value) for value in URDF.get(wrong) or nearest(wrong, URDF_TYPES.split()) or ["fixed"])
 
 
-def _numbers(said: str, element: Element, given: dict[str, str]) -> Iterator[tuple[Edit, str]]:
-    """The number that may have been meant, or none; `given` has what a default class says, too."""
+def _numbers(said: str, element: Element, by_class: dict[str, str]) -> Iterator[tuple[Edit, str]]:
+    """The number that may have been meant, or none; `by_class` has what a default class says, too."""
 
     def put(attribute: str, value: str) -> tuple[Edit, str]:
         return set_attribute(element, attribute, value), element.get(attribute, "nothing")
@@ -240,11 +240,11 @@ def _numbers(said: str, element: Element, given: dict[str, str]) -> Iterator[tup
     elif "has `range` but not `limited`" in said or "but not `" in said:
         yield put(re.findall(r"but not `(\w+)`", said)[0], "true")
     elif "range[0] should be 0" in said:
-        yield put("range", f"0 {(given['range'] or '0').rsplit(maxsplit=1)[-1]}")
+        yield put("range", f"0 {(by_class['range'] or '0').rsplit(maxsplit=1)[-1]}")
     elif "axis too small" in said:
         yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):
-        sizes = [abs(float(number)) or 0.01 for number in (given["size"] or "0.01").split()]
+        sizes = [abs(float(number)) or 0.01 for number in (by_class["size"] or "0.01").split()]
         count = int(re.findall(r"size (\d+)", said)[0])
         for length in (max(len(sizes), count + 1), 3):
             yield put("size", " ".join(f"{number:g}" for number in (sizes + sizes[-1:] * 3)[:length]))

@@ -156,7 +156,7 @@ def test_a_weld_that_a_load_pulls_apart_is_told(mass, told):
 </mujoco>
 """
     found = findings(text, "soft-equality")
-    assert [" apart where the equality holds them together" in each.says for each in found] == [True] * told
+    assert [" apart where the equality is to hold them together" in each.says for each in found] == [True] * told
 
 
 @pytest.mark.parametrize(("place", "told"), [("0.35 0 1", False), ("0.9 0.3 1", True)])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, insert, remove_attribute, replace, set_attribute
+from clinic.diagnosis.probes.vector import cross, numbers, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.source import Element, asset_name, stem
+from clinic.diagnosis.source import ORIENTATIONS, Element, asset_name, stem
 
 AT_SITE = ("touch", "accelerometer", "velocimeter", "gyro", "force", "torque", "magnetometer", "rangefinder")
 FRAMES = {f"frame{each}" for each in ["pos", "quat", "xaxis", "yaxis", "zaxis", "linvel", "angvel", "linacc", "angacc"]}
@@ -45,10 +47,19 @@ def converted(model: ReaderModel, element: Element, attribute: str) -> Iterator[
             )
     elif tag == "camera" and attribute in ("lookat", "target_pos"):
         yield from _seen(element, attribute)
+    elif tag == "geom" and attribute in ("radius", "length"):
+        radius, length = numbers(element.get("radius")), numbers(element.get("length"))
+        if len(radius) == len(length) == 1:
+            size = written([radius[0], length[0] / 2])
+            gone = remove_attribute(element, "radius"), remove_attribute(element, "length")
+            says = "size has the radius and half of the length."
+            yield (*gone, set_attribute(element, "size", size)), f"size={size!r}", says
+    elif attribute == "rpy" and not any(element.get(each) for each in ORIENTATIONS):
+        yield from _turned(element)
     elif tag == "freejoint":
         text = model.text_of(element)
         whole = text.replace("<freejoint", '<joint type="free"', 1).replace("</freejoint", "</joint")
-        yield (replace(element, whole),), '<joint type="free">', "A <freejoint> has a name and a group alone."
+        yield (replace(element, whole),), '<joint type="free">', "A <freejoint> takes a name, a group and align alone."
     elif tag == "light" and attribute in ("color", "rgba", "rgb"):
         value = " ".join(now.split()[:3])
         yield (
@@ -118,17 +129,27 @@ def _mesh(model: ReaderModel, geom: Element, attribute: str) -> Iterator[Made]:
     )
 
 
+def _turned(element: Element) -> Iterator[Made]:
+    """The quaternion of roll, pitch and yaw in rad; of angles beyond a turn, which are in degrees, nothing."""
+    angles = numbers(element.get("rpy"))
+    if len(angles) == 3 and max(map(abs, angles)) < 2 * math.pi:
+        (a, b, c), (x, y, z) = ([half(each / 2) for each in angles] for half in (math.cos, math.sin))
+        turn = a * b * c + x * y * z, x * b * c - a * y * z, a * y * c + x * b * z, a * b * z - x * y * c
+        edits = remove_attribute(element, "rpy"), set_attribute(element, "quat", written(turn))
+        says = "rpy is of URDF, in rad about axes that do not turn with it: this quat is the same turn."
+        yield edits, f"quat={written(turn)!r}", says
+
+
 def _seen(camera: Element, attribute: str) -> Iterator[Made]:
-    """The direction from the point that is looked at: a camera looks along its negative z axis."""
-    place, point = (
-        [float(each) for each in text.split()] for text in (camera.get("pos", "0 0 0"), camera.get(attribute))
-    )
-    back = [a - b for a, b in zip(place, point, strict=True)]
-    if any(back):
-        value = " ".join(f"{each:g}" for each in back)
-        edits = (remove_attribute(camera, attribute), set_attribute(camera, "zaxis", value))
+    """The axes of a camera that looks at a point along its negative z axis, with its image's right level."""
+    place, point = numbers(camera.get("pos", "0 0 0")), numbers(camera.get(attribute))
+    back = [a - b for a, b in zip(place, point, strict=False)]
+    if len(back) == 3 and any(back):
+        right = (-back[1], back[0], 0.0) if any(back[:2]) else (1.0, 0.0, 0.0)
+        value = written([*unit(right), *unit(cross(back, right))])
+        edits = (remove_attribute(camera, attribute), set_attribute(camera, "xyaxes", value))
         yield (
             edits,
-            f"zaxis={value!r}",
-            "A camera looks along its negative z axis: zaxis is pos minus the point that is looked at.",
+            f"xyaxes={value!r}",
+            "xyaxes are the image's right and up; the camera looks along its negative z axis.",
         )

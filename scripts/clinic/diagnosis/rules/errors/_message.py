@@ -51,8 +51,8 @@ def _of_kind(model: ReaderModel, said: str) -> list[Element]:
     assert model.source is not None
     words = re.findall(r"\bin (?:ball |contact )?(\w+)", said)[::-1] + re.findall(r"\b[a-z]+\b", said)
     for word in words:
-        if word in SECTIONS:
-            return list(model.source.section(word))
+        if word in SECTIONS or word == "constraint":
+            return list(model.source.section("equality" if word == "constraint" else word))
         if word in ("geom", "joint", "site", "camera", "light") and not model.urdf:
             return model.source.of_bodies(word, *(("freejoint",) if word == "joint" else ()))
         if word in (

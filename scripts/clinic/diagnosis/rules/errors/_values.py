@@ -43,7 +43,7 @@ VALUES = (
     ),
     Remedy(
         "(?:damper|adhesion) control range cannot be negative",
-        "A damper and an adhesion are switched between nothing and all: 0 1.",
+        "The control of a damper or an adhesion is not negative: 0 1 goes from nothing to all of it.",
         ("ctrlrange=0 1",),
     ),
     Remedy("crank length must be positive", "cranklength is the length of the rod in m.", ("cranklength=0.1",)),
@@ -92,13 +92,18 @@ VALUES = (
     ),
     Remedy(
         r"(extent|znear|zfar|meaninertia|meansize|meanmass) must be",
-        "MuJoCo finds it by itself where nothing is written.",
+        "MuJoCo has a value of its own where nothing is written.",
         ("-{0}",),
     ),
     Remedy(
         "No cubefiles_ defined",
         "A texture is a file or a builtin pattern, and a cube where no type is written; a grey one is put in.",
         ("builtin=flat;width=8;height=8", "type=2d;builtin=flat;width=8;height=8"),
+    ),
+    Remedy(
+        "Cannot load 2D texture from separate files",
+        "A texture of type 2d is one file or a builtin pattern; a grey one is put in.",
+        ("type=cube", "builtin=flat;width=8;height=8"),
     ),
     Remedy(
         "Invalid (?:width|height) of builtin texture",
@@ -190,7 +195,7 @@ VALUES = (
     Remedy("builtin textures must have 3", "A pattern has three channels; one with alpha is a file.", ("-nchannel",)),
     Remedy(
         "number is too large in attribute '(contype|conaffinity)'",
-        "The numbers of collision groups have 31 bits.",
+        "A collision mask is at most 2147483647 in the text.",
         ("{0}=1",),
     ),
     Remedy("'num' must be positive", "num is how many contacts are told; 1 is the default.", ("-num",)),

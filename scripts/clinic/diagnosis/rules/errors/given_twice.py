@@ -1,7 +1,8 @@
 """Something is given twice that can be there once.
 
-A body or link has one `<inertial>`, a visual or collision one `<geometry>`, a tendon's path a site once, and a link one
-joint that leads to it. A file is included once. Merging two files or exporting twice makes such models.
+A body or link has one `<inertial>`, a visual or collision one `<geometry>`, a fixed tendon each joint once, a spatial
+one no site twice in a row, and a link one joint that leads to it. A file is included once. Merging two files or
+exporting twice makes such models.
 
 Bad:
 

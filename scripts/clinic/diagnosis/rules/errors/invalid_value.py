@@ -1,4 +1,4 @@
-"""A value that MuJoCo does not take: a reversed range, a size of zero, an axis of zero, a word it does not know.
+"""A value that MuJoCo does not take: a `limited` range reversed, a size or an axis of zero, a word it does not know.
 
 Bad:
 
@@ -18,7 +18,7 @@ Good:
 
 The number: none; the text compiles with the edit.
 
-When it is wrong: a size or axis of zero is replaced by a small one or by the vertical, which is a guess.
+When it is wrong: in the place of a size of zero a small one is put, in that of an axis of zero 0 0 1: a guess.
 """
 
 from __future__ import annotations
@@ -64,14 +64,14 @@ SIZES = {  # how many numbers a geom takes
 ADVICE = {
     r"should be smaller|invalid .*range": "The smaller number comes first.",
     "should be 0": "A ball's range is from 0 to the largest angle.",
-    "axis too small": "An axis needs a length; the vertical is put in.",
+    "axis too small": "An axis needs a length; 0 0 1 of its body is put in.",
     "plane size": "size is half the length, half the width (0 for no end) and the distance of the grid's lines, not 0.",
     "fromto": "Both ends are the same point; the second is moved by 0.1 m.",
     "zero quaternion": "1 0 0 0 does not turn.",
-    "orientation|at most one of": "One of them can be given; the last is taken off.",
+    "multiple orientation|at most one of": "One of them can be given; the last is taken off.",
     "both": "One of them is enough.",
-    "inheritrange": "It takes the range of the joint or tendon that is driven, for position and intvelocity.",
-    "volume is|too small|coplanar": "A shell has the mass in its surface.",
+    "inheritrange": "It takes the range of the joint or tendon that is driven, for position, intvelocity and pid.",
+    "volume is|too small|coplanar|orientation": "A shell has the mass in its surface.",
     "mocap": "A mocap body is a child of the world and has no joint.",
     "global coordinates": "Without it positions are taken as local, which they are not in a model written so.",
     "optional suffix": "Memory is a whole number of bytes with K, M, G: 10M.",
@@ -94,7 +94,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for element in model.source.elements("compiler") if "but not `" in said else ():
         if element.get("autolimits") == "false":
             taken = (remove_attribute(element, "autolimits"),)
-            yield mends(element, taken, f"{said}.", attribute="autolimits", now="false", value="left out")
+            yield mends(element, taken, said, attribute="autolimits", now="false", value="left out")
     if "flex elasticity is no longer integrated" in said:
         edits = model.option("integrator", "discrete")
         for element in model.source.elements("option") if edits else ():
@@ -116,9 +116,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _of_its_joint(model, said)
     yield from remedied(model, VALUES)
     for element in meant(model):
-        for edit, now in _edits(said, element):
+        by_class = {name: model.source.value(element, name) or "" for name in ("type", "size", "range")}
+        for edit, now in _edits(said, element, by_class):
             value = {"set": edit.value, "delete": f"<{element.tag}> removed"}.get(edit.action, "left out")
-            says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
+            says = f"{said.rstrip('.')}. {_advice(said, element, edit, by_class['type'])}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
 
 
@@ -145,7 +146,7 @@ def _of_its_joint(model: ReaderModel, said: str) -> Iterator[Suspect]:
             )
 
 
-def _advice(said: str, element: Element, edit: Edit) -> str:
+def _advice(said: str, element: Element, edit: Edit, kind: str) -> str:
     """What MuJoCo wants in the place of the value, in a sentence."""
     if edit.action == "delete":
         return "A body without a joint is fixed to its parent; one that moves freely has a <freejoint/>."
@@ -154,7 +155,7 @@ def _advice(said: str, element: Element, edit: Edit) -> str:
     if "keyword" in said:
         return f"{edit.attribute} of <{element.tag}> takes none that is like it; without it the default holds."
     if re.search(r"size \d+ must be positive", said):
-        return SIZES.get(element.get("type", "sphere"), "")
+        return SIZES.get(kind or "sphere", "")
     if "range" in said and edit.attribute == "limited":
         return "What is limited needs a range."
     return next((says for part, says in ADVICE.items() if re.search(part, said)), "")
@@ -176,11 +177,11 @@ def _positive(value: str) -> str:
     return " ".join(each.lstrip("-") if float(each) else "0.001" for each in value.split())
 
 
-def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
+def _edits(said: str, element: Element, by_class: dict[str, str]) -> Iterator[tuple[Edit, str]]:
     if "keyword" in said or "data attributes must be in order" in said or "joint type in URDF" in said:
         yield from _words(said, element)
     else:
-        yield from _numbers(said, element)
+        yield from _numbers(said, element, by_class)
 
 
 def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
@@ -211,8 +212,8 @@ def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
         yield from (put("type", value) for value in URDF.get(wrong) or nearest(wrong, URDF_TYPES.split()) or ["fixed"])
 
 
-def _numbers(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
-    """The number that may have been meant, or none."""
+def _numbers(said: str, element: Element, by_class: dict[str, str]) -> Iterator[tuple[Edit, str]]:
+    """The number that may have been meant, or none; `by_class` has what a default class says, too."""
 
     def put(attribute: str, value: str) -> tuple[Edit, str]:
         return set_attribute(element, attribute, value), element.get(attribute, "nothing")
@@ -239,17 +240,17 @@ def _numbers(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
     elif "has `range` but not `limited`" in said or "but not `" in said:
         yield put(re.findall(r"but not `(\w+)`", said)[0], "true")
     elif "range[0] should be 0" in said:
-        yield put("range", f"0 {(element.get('range').split() or ['90'])[-1]}")
+        yield put("range", f"0 {(by_class['range'] or '0').rsplit(maxsplit=1)[-1]}")
     elif "axis too small" in said:
         yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):
-        sizes = [abs(float(number)) or 0.01 for number in (element.get("size") or "0.01").split()]
+        sizes = [abs(float(number)) or 0.01 for number in (by_class["size"] or "0.01").split()]
         count = int(re.findall(r"size (\d+)", said)[0])
         for length in (max(len(sizes), count + 1), 3):
             yield put("size", " ".join(f"{number:g}" for number in (sizes + sizes[-1:] * 3)[:length]))
     elif "zero quaternion" in said:
         yield put("quat", "1 0 0 0")
-    elif "orientation" in said or "at most one of" in said:
+    elif "multiple orientation" in said or "at most one of" in said:
         given = [name for name in element.attributes if name in said or name in ORIENTATIONS]
         yield from ((remove_attribute(element, name), element.get(name)) for name in given[::-1])
     elif "both" in said and "defined" in said:

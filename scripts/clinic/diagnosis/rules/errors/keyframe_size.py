@@ -1,7 +1,7 @@
 """A keyframe has more numbers than the model has positions, speeds, controls or activations.
 
 A free object in front of the robot takes the first seven places of `qpos`; a joint more or fewer changes them all.
-A `qpos` that is too short is filled up in silence, and one that is too long is refused.
+A `qpos` that is too short is filled up in silence from the model's own start, `qpos0`; one that is too long is refused.
 
 Bad:
 
@@ -47,13 +47,14 @@ MESSAGE = re.compile(r"key(?:frame)? '?([^':]*)'?: invalid (\w+) size, expected 
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """All keys that have more numbers than fit, cut; those that have fewer, filled with zeros."""
+    """All keys that have more numbers than fit, cut; where none has, those that have fewer, filled with zeros."""
     found = MESSAGE.match(sentence(model))
     if not found or model.source is None:
         return
     which, attribute, size = found.groups()
     keys = [key for key in model.source.section("keyframe") if len(key.get(attribute).split()) != int(size)]
     keys = [key for key in keys if attribute in key.attributes]
+    keys = [key for key in keys if len(key.get(attribute).split()) > int(size)] or keys
     named = [key for key in keys if key.get("name") == which] or keys
     if not named:
         return

@@ -1,7 +1,7 @@
 """Something that must be there is left out.
 
-An inertial without mass, a hinge equation without its joint, a sensor that does not say of what, an asset without a
-name: MuJoCo says `required attribute missing` or `missing element`.
+An inertial without mass, a joint equality without its joint, a sensor that does not say of what, an asset without a
+name: MuJoCo says `required attribute missing`, `missing element` or `empty name`.
 
 Bad:
 
@@ -224,7 +224,7 @@ def _names(model: ReaderModel, element: Element, attribute: str) -> list[str]:
 def _child(model: ReaderModel, element: Element, tag: str) -> Iterator[Suspect]:
     """An element of a URDF that has to be inside of another."""
     owner = f' of {element.parent.tag} "{element.parent.get("name")}"' if element.parent is not None else ""
-    says = f"<{element.tag}>{owner if element.tag != 'joint' else ''} needs a <{tag}>"
+    says = f"<{element.tag}>{owner if element.tag != 'joint' else ''} needs a{'n' * (tag[0] in 'aeiou')} <{tag}>"
     if tag in ("mass", "inertia"):
         yield ball_in(element, tag, says)
     elif tag in ("parent", "child"):

@@ -1,7 +1,7 @@
 """A number is not one, or there are too many or too few of them.
 
 MuJoCo wants numbers with spaces between them. `bad format` is a comma, a unit, a missing space (`0.1-0.2`) or a second
-point; `too much data` and `not enough data` count the numbers.
+point; `has too much data` and `does not have enough data` count the numbers.
 
 Bad:
 
@@ -47,6 +47,7 @@ UNITS = {"mm": 1e-3, "cm": 1e-2, "g": 1e-3, "ms": 1e-3}
 WORD = re.compile(
     r"([-+]?)((?:\d+\.?\d*|\.\d+)?(?:[eE][-+]?\d+)?)\*?(pi)?(?:/(\d+\.?\d*))?(mm|cm|m|kg|g|ms|s|deg|rad)?"
 )
+ANGLES = ("euler", "axisangle", "range", "ref", "springref", "rpy", "lower", "upper")
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -61,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if attribute not in element.attributes or "${" in now:
             continue
         says = f'{LARGE if "too large" in found.string else SPACED}: "{sentence(model)}".'
-        for value in dict.fromkeys(_guesses(attribute, now, "enough" in found.string)):
+        for value in dict.fromkeys(_guesses(attribute, now, "enough" in found.string, model.angle_unit)):
             edits = (set_attribute(element, attribute, value),)
             if value != now and not _refused(model, edits, attribute):
                 yield mends(element, edits, says, attribute=attribute, now=now, value=value)
@@ -72,11 +73,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield mends(element, without, says, attribute=attribute, now=now, value="left out")
 
 
-def _guesses(attribute: str, now: str, short: bool) -> Iterator[str]:
-    """What may have been meant: the likeliest first."""
+def _guesses(attribute: str, now: str, short: bool, unit: float) -> Iterator[str]:
+    """What may have been meant: the likeliest first; `unit` is as in `_read`."""
     plain = now.replace("\u2212", "-").replace("\u2013", "-")
     words = plain.replace(";", " ").split()
-    read = [_read(word) for word in words]
+    read = [_read(word, unit if attribute in ANGLES else 0.0) for word in words]
     if None not in read and not all(map(NUMBER.fullmatch, words)):
         yield " ".join(f"{number:.6g}" for number in read)
     if len(words) == 1 and (letter := words[0].lower().lstrip("+-")) in AXES:
@@ -111,12 +112,19 @@ def _size(word: str) -> float:
     return float(word) if NUMBER.fullmatch(word) else 0.0
 
 
-def _read(word: str) -> float | None:
-    """A number, one with a unit or a divisor, or a part of pi: `10cm`, `0.13/2`, `-pi/2`."""
+def _read(word: str, unit: float) -> float | None:
+    """A number, one with a unit or a divisor, or a part of pi: `10cm`, `0.13/2`, `-pi/2`.
+
+    `unit` is that of the text's angles in rad, 0 where the number is no angle.
+    """
     found = WORD.fullmatch(word)
     if not found or not (found[2] or found[3]):
         return None
     value = float(found[2] or 1) * (math.pi if found[3] else 1.0) / float(found[4] or 1)
+    if 0 < unit < 1 and (found[3] or found[5] == "rad"):
+        value /= unit
+    elif unit == 1 and found[5] == "deg":
+        value *= math.pi / 180
     return (-value if found[1] == "-" else value) * UNITS.get(found[5] or "", 1.0)
 
 

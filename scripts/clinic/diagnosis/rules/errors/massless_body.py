@@ -1,8 +1,8 @@
 """A moving body has no mass, or no inertia.
 
-A body that a joint moves, with no geom and no `<inertial>`, or with geoms without mass, cannot be accelerated: `mass
-and inertia of moving bodies must be larger than mjMINVAL`. Empty frames of a URDF and helper links are the usual
-ones.
+MuJoCo refuses a body that a joint moves where neither the body nor what is fixed to it has mass and inertia: `mass and
+inertia of moving bodies must be larger than mjMINVAL`. A link that hangs on it by another joint does not count. Empty
+frames of a URDF and helper links are the usual ones.
 
 Bad:
 
@@ -22,10 +22,11 @@ Good:
 
 The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, or, where its inertia is written, what a ball of
 50 mm radius with that has, or, in URDF, the link's own box, cylinder or sphere; and a body without inertia that of such
-a ball. A body whose geoms do have mass is too small: a box of 0.1 mm has an inertia of 2e-18 kg m2; the compiler then
-gives all bodies the least that it takes, and lengths in mm are better. Where a mesh has a `scale` below 0.01, it is
-taken for one that was in metres already: a thousand times as much is tried first. Where two bodies and more are written
-alike but for the class or mass of one geom, a wheel among wheels, it gets theirs.
+a ball; of moments of which some are 0 these get the mean of the others. A body whose geoms do have mass is too small: a
+box of 0.1 mm has an inertia of 2e-18 kg m2; the compiler then gives all bodies the least that it takes, and lengths in
+mm are better. Where a mesh has a `scale` below 0.01, it is taken for one that was in metres already: a thousand times
+as much is tried first. Where two bodies and more are written alike but for the class or mass of one geom, a wheel among
+wheels, it gets theirs.
 
 When it is wrong: the body may not be meant to move: then its joint is too much.
 """
@@ -35,10 +36,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, delete, insert, remove_attribute, replace, set_attribute
+from clinic.diagnosis.probes.vector import numbers, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._ball import mass_of_a_ball, mass_of_its_shape
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.rules.errors._scale import scaled_back
+from clinic.diagnosis.rules.errors.invalid_inertia import possible
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -79,6 +82,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 return
             edits = (*((delete(inertial),) if inertial else ()), insert(element, _inertial(0.01, model.urdf)))
             yield mends(element, edits, says, attribute="mass", now="0", value="0.01")
+        elif any(moments := numbers(inertial.get("diaginertia"))) and min(moments) >= 0:
+            value = written(possible(moments))
+            says = f"{named} moves, and a moment of its inertia is 0: {said}."
+            edits = (set_attribute(inertial, "diaginertia", value),)
+            yield mends(element, edits, says, attribute="diaginertia", now=written(moments), value=value)
         else:
             says = f"{named} moves and has a mass of {mass:g} kg without inertia: {said}."
             edits = (replace(inertial, _inertial(mass, model.urdf, inertial)),)

@@ -1,7 +1,7 @@
 """A joint where none can be, or more than a body can have.
 
-A free joint belongs to a body directly below the world, alone. The world has no joints. A plane or height field does
-not move. A body has at most six degrees of freedom, and a ball joint is not followed by a hinge.
+A free joint belongs to a body directly below the world, alone. The world has no joints. A plane does not move. A body
+has at most six degrees of freedom, and a ball joint is not followed by a hinge.
 
 Bad:
 
@@ -58,7 +58,7 @@ SAID = ("free joint can only", "World body cannot have joints", "more than 6 dof
 SAYS = {
     "free": "Only a child of the world can be free; the joint is taken out, and the body is fixed to its parent.",
     "World": "The world does not move: the joint belongs into a <body>.",
-    "more": "A body has six degrees of freedom at most, and a free joint has all of them.",
+    "more": "A body has six degrees of freedom at most, of which a free joint has all.",
     "ball": "A ball turns about every axis already.",
 }
 

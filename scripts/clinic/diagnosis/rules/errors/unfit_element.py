@@ -123,9 +123,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if found := KIND.match(said):
         for sensor in meant(model)[:1]:
             yield from _sensor(model, sensor, found[1], said)
-    elif found := re.search(r"(geom|joint) '([^']*)' in tendon \d+, wrap \d+|geom at pos (\d+) not bracketed", said):
-        for element in meant(model):
-            yield from _wrap(element, found[2], said)
+    elif found := re.search(r"(?:geom|joint) '([^']*)' in tendon (\d+), wrap \d+|geom at pos \d+ not bracketed", said):
+        number = int(found[2] or -1)
+        tendons = list(model.source.section("tendon"))[number : number + 1] if found[2] else []
+        for element in tendons or meant(model):
+            yield from _wrap(element, found[1], said)
     elif "Lengthrange computation did not converge" in said or "lengthrange" in said.lower():
         yield from _muscle(model, said)
     elif "direct child of replicate" in said:

@@ -6,7 +6,7 @@ was removed has a replacement, or goes.
 Bad:
 
     <mujoco>
-      <compiler coordinate="local"/>
+      <option mpr_iterations="50"/>
       <worldbody>
         <geom name="ball" size="0.1" colour="1 0 0 1"/>
       </worldbody>
@@ -15,12 +15,14 @@ Bad:
 Good:
 
     <mujoco>
+      <option ccd_iterations="50"/>
       <worldbody>
         <geom name="ball" size="0.1" rgba="1 0 0 1"/>
       </worldbody>
     </mujoco>
 
-The number: none; the text compiles with the edit. Replacements are from MuJoCo's changelog.
+The number: none; the text compiles with the edit. The new names of `mpr_iterations` and `mpr_tolerance` are from
+MuJoCo's changelog; the other names are guessed.
 
 When it is wrong: where no known attribute is like it, it is taken off, and what it was meant to do is lost.
 """
@@ -42,7 +44,7 @@ TITLE = "An unknown or removed attribute"
 FAMILIES = ("will-not-compile",)
 
 MESSAGE = re.compile(r"(?:Schema violation: )?unrecognized attribute: '([\w:.-]+)'")
-RENAMED = {  # from the changelog
+RENAMED = {  # the first two by the changelog
     "mpr_iterations": "ccd_iterations",
     "mpr_tolerance": "ccd_tolerance",
     "colour": "rgba",
@@ -97,7 +99,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits = _renamed(element, attribute, name)
             if name not in element.attributes and _known(model, element, name) and not _refused(model, edits, name):
                 says = f"This MuJoCo knows no {attribute!r} there, but it knows {name!r}."
-                yield mends(element, edits, says, attribute=attribute, now=now, value=f"{name}={now!r}")
+                yield mends(element, edits, says, attribute=attribute, now=now, value=f"{name}={edits[1].value!r}")
                 return
         says = f"This MuJoCo knows no {attribute!r} at <{element.tag}>."
         yield mends(
@@ -107,7 +109,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _renamed(element: Element, attribute: str, name: str) -> tuple[Edit, ...]:
-    return (remove_attribute(element, attribute), set_attribute(element, name, element.get(attribute)))
+    value = element.get(attribute)
+    value += " 1" * (name == "rgba" and len(value.split()) == 3)
+    return (remove_attribute(element, attribute), set_attribute(element, name, value))
 
 
 def _known(model: ReaderModel, element: Element, name: str) -> bool:

@@ -23,7 +23,7 @@ Good:
 The number: none; the text compiles with the edit.
 
 When it is wrong: an element that is like no other is taken out, and what it was meant to do is lost. Of a cable only
-the length, the count and the radius are kept; its bodies have other names.
+the length, the count and the place are kept; its bodies have other names.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ RENAMED = {
     "visual": "geom",
     "link": "body",
 }
-GONE = {"composite": "MuJoCo 4.0 has no <composite>: a <flexcomp> takes its place, which a grid of dim 1 to 3 makes."}
+GONE = {"composite": "MuJoCo 4.0 has no <composite>: a <flexcomp> takes its place, a grid of dim 1 to 3."}
 HOME = {  # where an element belongs
     "actuator": "motor position velocity intvelocity damper cylinder muscle general adhesion dcmotor",
     "sensor": """touch accelerometer velocimeter gyro force torque magnetometer rangefinder jointpos jointvel framepos

@@ -1,7 +1,7 @@
 """A mesh, texture or height field whose file or points MuJoCo cannot use.
 
 An STL file is binary and has at most 200,000 faces; COLLADA, glTF and PLY are not read at all. A mesh collides as its
-convex hull, which a flat one has not; one that is open or very small has no volume of which a mass could be made.
+convex hull, which a flat one has not; of a very small one MuJoCo makes no mass.
 
 Bad:
 
@@ -49,8 +49,8 @@ LEVEL = "cause"
 UNPLANTED = "the fault is in a file beside the model"
 
 FORMATS = {
-    "dae": "COLLADA is not read: save the mesh as OBJ or binary STL, of Blender or of `meshlabserver`.",
-    "glb": "glTF is not read: save the mesh as OBJ, as `obj2mjcf` does, or as binary STL.",
+    "dae": "COLLADA is not read: save the mesh as OBJ or binary STL, in MeshLab for example.",
+    "glb": "glTF is not read: save the mesh as OBJ or binary STL, in Blender for example.",
     "ply": "PLY is not read: save the mesh as OBJ or binary STL.",
     "fbx": "FBX is not read: save the mesh as OBJ or binary STL.",
     "jpg": "Pictures are read as PNG: save it as PNG.",
@@ -59,7 +59,7 @@ FORMATS = {
 FORMATS |= {"gltf": FORMATS["glb"], "jpeg": FORMATS["jpg"], "bmp": FORMATS["jpg"], "tga": FORMATS["jpg"]}
 FACES, HEAD = 200_000, 84  # faces, bytes before them
 FLAT = "coplanar|volume is too small|at least 4 vertices|surface area is too small|eigenvalue of mesh inertia"
-BOX = "0.01 0.01 0.01"
+BOX, HALVES = "0.01 0.01 0.01", "0.005 0.005 0.005"  # of 10 mm in URDF, and in MJCF
 ANEW = "save it anew, or open it in another program."
 
 
@@ -182,7 +182,7 @@ def _without_volume(model: ReaderModel, said: str) -> Iterator[Suspect]:
             (set_attribute(mesh, "inertia", "shell"),),
             f"{said}.",
             attribute="inertia",
-            now="convex",
+            now=mesh.get("inertia", "legacy"),
             value="shell",
         )
         name = asset_name(mesh)
@@ -195,7 +195,7 @@ def _without_volume(model: ReaderModel, said: str) -> Iterator[Suspect]:
 
 def _box(geom: Element) -> Iterator[Edit]:
     yield set_attribute(geom, "type", "box")
-    yield set_attribute(geom, "size", BOX)
+    yield set_attribute(geom, "size", HALVES)
     yield from (remove_attribute(geom, name) for name in ("mesh", "fitscale") if name in geom.attributes)
 
 

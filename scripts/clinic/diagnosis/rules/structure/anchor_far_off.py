@@ -26,13 +26,13 @@ Good:
     +     <connect body1="rod" body2="wall" anchor="0.22 0 0"/>
 
 The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 0.3, or
-more than 3 on the line between the two, and from the world. Of 289 healthy models 12 connect bodies, and all have 0.
-Where the same numbers, read as a place in the world, lie on a body, the edit is that place in the first body's frame.
-An anchor on one body is told too where the other is more than 3 times its size away from it: the two did not meet at
-the start, and the second is held by a place in the air. Or where it is more than 0.25 times the size of a body away,
-and on both once a slip is undone: a sign or two numbers of the anchor, a place short of the rod's end, the next link in
-place of this one, a sign in `euler` or `pos` of a body of the loop. Of 9 healthy models with such anchors the most is
-0.2.
+than 3 where it is on the line between the two, or where one of them is the world. Of 289 healthy models 12 connect
+bodies, and all have 0. Where the same numbers, read as a place in the world, lie on a body, the edit is that place in
+the first body's frame. An anchor on one body is told too where the other is more than 3 times its size away from it:
+the two did not meet at the start, and the second is held by a place in the air. Or where it is more than 0.25 times the
+size of a body away, and on both once a slip is undone: a sign or two numbers of the anchor, a place short of the rod's
+end, the next link in place of this one, a sign in `euler` or `pos` of a body of the loop. Of 9 healthy models with such
+anchors the most is 0.2.
 
 When it is wrong: a rod that was left out of the drawing on purpose.
 """

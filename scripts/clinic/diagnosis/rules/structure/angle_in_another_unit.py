@@ -1,7 +1,7 @@
 """An angle of a body, geom, site or camera is in degrees where the model reads radians, or the other way.
 
-`<compiler angle="radian"/>` is for all of `euler`, `axisangle` and `range`: 90 is then 14 turns and a bit. Without it
-1.5708 are 1.6 degrees.
+`<compiler angle="radian"/>` is for all of `euler`, `axisangle` and the `range` of hinges and balls: 90 is then 14 turns
+and a bit. Without it 1.5708 are 1.6 degrees.
 
 Bad:
 
@@ -22,7 +22,7 @@ Good:
     +       <site name="lidar" pos="0.2 0 0" euler="0 1.5708 0.7854"/>
 
 The number: elements with an angle of more than a turn in radians, in URDF an `rpy`, which has no other unit; or whose
-angles in degrees are all quarters of pi. Of 289 healthy models none has one of the first kind.
+angles in degrees are all multiples of a quarter of pi. Of 289 healthy models none has one of the first kind.
 
 When it is wrong: a part that is turned by 1.57 degrees.
 """
@@ -57,7 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits = tuple(edit for each, angles in found.items() for edit in _edits(each, angles, radians))
     first = edits[0]
     now = next(iter(found)).get(first.attribute)
-    said = "radians: it is more than a turn" if radians else "degrees: it is a part of pi"
+    said = "radians: it is more than a turn" if radians else "degrees: it is a multiple of a quarter of pi"
     yield Suspect(
         tuple(_name(each) for each in found),
         first.attribute,

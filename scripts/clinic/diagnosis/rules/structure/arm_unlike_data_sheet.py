@@ -44,9 +44,10 @@ The number: how far a distance between two axes in a row, or the offset between 
 from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are, and half of those that are not 0. Or
 the axes, at most two, that point against those of the maker's description while all the others point along them.
 
-Or how far the shoulder is from where it is above the base; or how many times the links together weigh what they do
-there, from 2 on, or from 1.02 where it is to 0.3 % what those of a sister model weigh; or by how many degrees a range
-goes beyond theirs, from 3 to 45; or by how many the fingers of its own hand slide another way, more than 5.
+Or how far the shoulder is from where the maker's base carries it, more than 2 mm; or how many times the links together
+weigh what they do there, from 2 on, or from 1.02 where it is to 0.3 % what those of a sister model weigh; or by how
+many degrees a range goes beyond theirs, from 3 to 45; or by how many the fingers of its own hand slide another way,
+more than 5.
 
 Lengths and axes are those of Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are.
 They are from the makers' own descriptions, for the arms in `probes/arms.toml`.

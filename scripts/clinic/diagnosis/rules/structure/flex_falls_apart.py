@@ -55,7 +55,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _burst(model)
     yield from _soft(model)
     for flex in model.source.elements("flexcomp"):
-        if flex.get("rigid") == "true" or _held(model.source, flex):
+        if flex.get("rigid") == "true" or _held(model.source, flex) or _pinned(model.simulation, flex):
             continue
         elastic = flex.first("elasticity")
         flat = flex.get("dim", "2") == "2" and elastic is not None and elastic.get("young", "0") != "0"
@@ -170,6 +170,17 @@ def _held(source: Source, flex: Element) -> bool:
     if elastic is None or float(elastic.get("young") or "0") <= 0:
         return False
     return flex.get("dim", "2") != "2" or elastic.get("elastic2d", "none") != "none"
+
+
+def _pinned(of: Simulation, flex: Element) -> bool:
+    """Whether all points of a flexcomp are pinned to one body."""
+    name = flex.get("name")
+    if name not in of.names("flex"):
+        return False
+    each = of.names("flex").index(name)
+    first, count = (int(of.model(f"flex_vert{field}")[each]) for field in ("adr", "num"))
+    bodies = {int(body) for body in of.model("flex_vertbodyid")[first : first + count]}
+    return len(bodies) == 1 and min(bodies) >= 0
 
 
 def _equal(source: Source) -> Iterator[Element]:

@@ -50,7 +50,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for geom, end in _feet(of).items():
         now, value, name = written(of.row("geom_pos", geom, 3)), written(end), of.name("geom", geom)
-        says = f"{name} is where its link begins, which ends {norm(end):.3g} m away."
+        says = f"{name} is at the origin of its link, whose other end is {norm(end):.3g} m away."
         edits = model.set("geom", [geom], "pos", value)
         yield Suspect((name,), "pos", now, value, edits, how_many("feet at their joint", _feet), 0, says, "at the end")
 

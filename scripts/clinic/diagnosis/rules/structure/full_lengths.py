@@ -1,4 +1,4 @@
-"""A box stands half in the ground: its size has full lengths.
+"""A box is sunk into the ground: its size has full lengths.
 
 The `size` of a box, and the second one of a cylinder, are half lengths in MuJoCo. Written in full, a box that was
 meant to stand on the floor is twice as large, and a quarter of it is below the floor.
@@ -79,7 +79,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         round_ = int(of.model("geom_type")[geom]) == CYLINDER
         halves = [size if round_ and not index else size / 2 for index, size in enumerate(sizes)]
         edits.append(set_attribute(element, "size", " ".join(f"{size:.6g}" for size in halves)))
-    says = "A size is half a length, and with half of it it would stand on what it is sunk into."
+    says = "size is half of a length: with half of this one it would stand on what it is sunk into."
     now, probe = placed[0][1].get("size"), counted("boxes that are sunk by half their half height", len(placed))
     yield Suspect(names, "size", now, edits[0].value, tuple(edits), probe, 0.5, says, "half lengths")
 

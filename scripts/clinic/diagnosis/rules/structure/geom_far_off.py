@@ -66,7 +66,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if far > FAR:
                 probe = Probe("distance from the rest", "of its size", _far, (root, geom), dynamic=False)
                 where = of.row("geom_pos", geom, 3)
-                says = f"Its middle is {far:.3g} times as far away as all others of its mechanism together are large."
+                says = (
+                    f"The nearest other geom of its mechanism is {far:.3g} times the size of all others together away."
+                )
                 now = " ".join(f"{x:.4g}" for x in where)
                 yield Suspect((of.name("geom", geom),), "pos", now, "near its body", (), probe, FAR, says, "below 3")
 

@@ -1,7 +1,7 @@
 """One geom is larger than all the rest of its mechanism together.
 
 A radius in centimetres or millimetres, a decimal point that was lost: the robot is inside of one of its own geoms,
-which weighs tonnes, stands in the floor and holds every joint.
+which may weigh tonnes and stand in the floor.
 
 Bad:
 
@@ -28,8 +28,8 @@ Good:
     -         <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="3"/>
     +         <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
 
-The number: the smallest extent of a geom over the size of the box around all others of its mechanism, which are three
-at least; more than 2.
+The number: the smallest extent of a geom that is no mesh over the size of the box around all others of its mechanism,
+which are three at least; more than 2.
 
 When it is wrong: a large ball with small things on it.
 """
@@ -71,7 +71,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now = model.value("geom", geom, "size") or ""
         value = written([scale * x if 2 * x > thickness(of, geom) / times else x for x in map(float, now.split())])
         edits = model.set("geom", [geom], "size", value) if value else ()
-        says = f"It is {times:.3g} times as thick as the box around the {len(others)} others of its mechanism is long."
+        says = (
+            f"It is {times:.3g} times as thick as the box around the {len(others)} others of its mechanism is across."
+        )
         probe = Probe("a geom's thickness", "of the box around the others", _times, (geom,), dynamic=False)
         yield Suspect((of.name("geom", geom),), "size", now, value, edits, probe, LARGE, says, "below 2")
 

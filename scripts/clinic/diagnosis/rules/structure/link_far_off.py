@@ -23,8 +23,7 @@ Good:
     +       <body name="fore" pos="0 0 0.3">
 
 The number: how far a body with a joint is from the body that it hangs on, in radii of the largest geom of its
-mechanism; told from 20 on, and from 2 m on. 2.5 radii of the larger of the two bodies count for that one where they are
-less.
+mechanism, or in 2.5 radii of the largest geom of the two bodies, where that is less; more than 20, and than 2 m.
 
 When it is wrong: a carriage on a long cable that is not drawn, or a planet.
 """

@@ -24,8 +24,8 @@ Good:
     +       <body name="lower" pos="0.3 0 0">
 
 The number: where the next link with a joint begins, in lengths of a capsule or cylinder that begins at its own body's
-origin: 10, 100 or 1000 times as far, where no other geom is; a tenth, where the rod is the one that is unlike the
-others, or where it is a tenth to the digit, of two digits and more, and nothing is at the rod's end; or at its
+origin: 10, 100, ... times as far, where no other geom is; a tenth, a hundredth, ..., where the rod is the one that is
+unlike the others, or where it is so to the digit, of two digits and more, and nothing is at the rod's end; or at its
 beginning, where the next one's is a rod in the same direction. And, of a long box too, as far on the other side, where
 no other geom is, of two links at most.
 

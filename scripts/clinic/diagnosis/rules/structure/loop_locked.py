@@ -103,7 +103,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         for each in active
         if (edits := model.set("equality", [each], "active", "false")) and model.measured(probe, edits) <= MOST
     ]
-    says = f"{names[0]} is driven, and no motion of the other joints lets it turn: of its pull at the equalities "
+    says = f"{names[0]} is driven, and no motion of the other joints lets it move: of its pull at the equalities "
     says += f"{100 * stuck[worst]:.0f} % is left."
     if holds:
         says += f" Without {' or '.join(of.name('equality', each) for each in holds[:3])} it would."

@@ -1,8 +1,8 @@
 """A loop is not closed where the model starts, and snaps together in the first steps.
 
-An equality pulls what it holds together from wherever it begins. A `<connect>` of two sites, or a `<weld>` with its
-own `relpose`, says where that is: when the links do not meet there, the first step begins with a blow, and the
-mechanism may lock in the wrong branch.
+An equality pulls what it holds together from wherever it begins. One of two sites, or a `<weld>` with its own
+`relpose`, says where that is: when the links do not meet there, the first step begins with a blow, and the mechanism
+may lock in the wrong branch.
 
 Bad:
 

@@ -35,9 +35,9 @@ Good:
     -         <joint name="index_join2" axis="0 1 0"/>
     +         <joint name="index_joint2" axis="0 1 0"/>
 
-The number: the letters by which the word differs, one, from a word of five letters and more that stands in four and
-more of the names of its kind, where the one stands in no other name of the model, and begins with the same letter. A
-plural is not told.
+The number: names with a word that differs by one letter, or by two neighbours exchanged, from a word of five letters
+and more that stands in four and more of the names of its kind. It stands in no other name of the model, and begins with
+the same letter. A plural is not told, nor is a word that is known, such as `waist` beside wrists.
 
 When it is wrong: two words that happen to be so alike, or a name that your own code knows as it is.
 """
@@ -57,6 +57,9 @@ UNPLANTED = "what a name is to be, only its siblings tell"
 
 KINDS = ("body", "joint", "actuator", "sensor", "site")
 LETTERS, OFTEN = 5, 4
+OWN = {  # words that are alike, and right
+       "waist", "wrist", "angle", "ankle", "plane", "plate", "black", "block", "track", "truck", "trunk", "spring",
+       "string", "crank", "crane", "shelf", "shell", "shaft", "shift", "slider", "spider"}  # fmt: skip
 WORD = re.compile(r"[a-z]+|[A-Z]+(?![a-z])|[A-Z][a-z]+")
 
 
@@ -69,7 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         for index, name in enumerate(of.names(kind)):
             for word in _words(name):
                 meant = [other for other in common if common[other] >= OFTEN and _nearly(word, other)]
-                if everywhere[word] > 1 or not meant:
+                if everywhere[word] > 1 or word in OWN or not meant:
                     continue
                 says = f"{word} stands in this name alone, and {meant[0]} in {common[meant[0]]} others."
                 value = _corrected(name, word, meant[0])

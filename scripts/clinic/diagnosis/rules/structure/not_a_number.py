@@ -1,7 +1,7 @@
 """A number in the text is `nan`, and MuJoCo takes it.
 
-Exporters write `nan` where they divided by zero. In some attributes the compiler refuses it; in `quat`, `euler`,
-`rgba` and others it does not, and what is computed from it is wrong without a word.
+Exporters write `nan` where they divided by zero. The compiler refuses it in the `size` of a geom. In `pos`, `quat`,
+`euler`, `rgba`, `damping` and others it compiles, with a warning, `XML contains a 'NaN'`, that does not say where.
 
 Bad:
 
@@ -70,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             mended = " ".join("0" if NONE.fullmatch(word) else word for word in words)
             name = element.get("name")
             told = f'{element.tag} "{name}"' if name else f"a <{element.tag}>"
-            says = f"{wrong[0]} is no number, and MuJoCo accepts it."
+            says = f"{wrong[0]} is no number, and MuJoCo compiles it with a warning that does not say where it stands."
             zero = not any(float(word) for word in mended.split())
             edits = () if zero or attribute in NOT_ZERO else (set_attribute(element, attribute, mended),)
             probe = counted("attributes with nan among their numbers", 1)

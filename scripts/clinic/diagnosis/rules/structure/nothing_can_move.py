@@ -19,8 +19,8 @@ Good:
           <body name="box" pos="0 0 0.5">
     +       <freejoint/>
 
-The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with
-gravity, is a cause; geoms of the world itself count where they are meshes, or hang alone above a plane.
+The number: 1 where a model with gravity and a plane has no joint at all, and a body hangs in the air above the plane;
+else 0. Geoms of the world itself count where they are meshes, or hang alone above a plane.
 
 When it is wrong: a model that is meant to be looked at only; one with a camera is left alone.
 """
@@ -64,7 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
     names = [of.name("body", body) for body in bodies] or [of.name("geom", geom) for geom in geoms]
     if names:
-        says = f"The model has no joint: {len(names)} of its parts hang in the air and gravity does nothing to them."
+        says = f"The model has no joint, and gravity does nothing to what hangs in the air: {len(names)} of its parts."
         probe = Probe("parts that nothing can move", "", _still, dynamic=False)
         yield Suspect(tuple(names), "freejoint", "left out", FREE_JOINT, edits, probe, 0.5, says, "a free joint each")
 

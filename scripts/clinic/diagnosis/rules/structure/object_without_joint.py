@@ -1,6 +1,7 @@
 """An object hangs in the air, or lies before a gripper, and nothing can move it.
 
-A body without a joint is part of the world: gravity does nothing to it, and a robot that grasps it cannot lift it.
+A body without a joint is fixed to its parent, here the world: gravity does nothing to it, and a robot that grasps it
+cannot lift it.
 
 Bad:
 

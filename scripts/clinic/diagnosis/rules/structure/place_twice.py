@@ -1,7 +1,8 @@
 """A body's place is written again for its geoms, and counts twice.
 
-A geom's `pos` is in the frame of its body, and a link's `<origin>` in that of its joint. Where a file was made from
-another format, or by hand, the place of the body in its parent stands in both: the part is twice as far away.
+A geom's `pos` is in the frame of its body, and the `<origin>` of a URDF's visual or collision in that of its link.
+Where a file was made from another format, or by hand, the place of the body in its parent stands in both: the part is
+twice as far away.
 
 Bad:
 
@@ -22,8 +23,8 @@ Good:
     -         <geom type="box" size="0.01 0.03 0.01" pos="0.08 0 0.09"/>
     +         <geom type="box" size="0.01 0.03 0.01" pos="0 0 0"/>
 
-The number: bodies with two coordinates or more, 2 cm or more away, of which all geoms have the very place, not by
-`fromto`.
+The number: bodies 2 cm or more from their parent, with two or three coordinates that are not 0, all of whose geoms have
+that very place as their `pos`.
 
 When it is wrong: equal steps of a chain that are written so.
 """

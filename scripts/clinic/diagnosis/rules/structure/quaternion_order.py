@@ -32,9 +32,10 @@ Good:
     </mujoco>
 
 The number: how many `quat` of bodies, geoms, sites, cameras and frames turn by more than a right angle as they stand,
-where none turns by less and all turn by less than 120 degrees in the other order. Two and more are told.
+where none turns by less, and all turn by less than 120 degrees, and by less than now, in the other order. Two and more
+are told.
 
-When it is wrong: parts that are all turned by half a turn about their own z.
+When it is wrong: parts that are all turned by more than a right angle about their own z.
 """
 
 from __future__ import annotations
@@ -71,7 +72,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits = tuple(set_attribute(element, "quat", " ".join((words[3], *words[:3]))) for element, words in found)
     element, words = found[0]
     probe = counted("quaternions that turn by more than a right angle", len(found))
-    says = f"All {len(found)} quaternions have their largest number last: that is x y z w, and MuJoCo reads w x y z."
+    says = (
+        f"All {len(found)} quaternions turn by more than a right angle, and by less as x y z w: MuJoCo reads w x y z."
+    )
     names = tuple(f'{each.tag} "{each.get("name")}"' if each.get("name") else f"<{each.tag}>" for each, _ in found)
     yield Suspect(
         tuple(dict.fromkeys(names)), "quat", " ".join(words), edits[0].value, edits, probe, 0, says,

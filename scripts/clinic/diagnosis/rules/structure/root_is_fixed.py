@@ -1,6 +1,6 @@
 """The wheels turn, or the legs move, and the robot stays.
 
-The body that carries the wheels has no joint, so it is part of the world. A URDF has no floating base either.
+The body that carries the wheels has no joint, so it is part of the world. So is the root link of a URDF.
 
 Bad:
 
@@ -29,8 +29,8 @@ Good:
 The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
 its height of the floor; in MJCF also two and more of which two parts are called so (hip and knee, thigh and shin, ...).
-And a body that carries links with joints and a gyro or a velocimeter, which read 0 on it for ever,
-in a file with a world.
+And a body that carries links with joints and a gyro or a velocimeter, which read 0 on it for ever, in a file with a
+world.
 
 Keyframes get the seven numbers of the place where the body stands.
 

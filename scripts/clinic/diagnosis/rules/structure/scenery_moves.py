@@ -1,8 +1,8 @@
 """A table, a shelf or a wall can move.
 
-What a robot works at is part of the world: a body without a joint. With a free joint it tips over when the robot leans
-on it; with slides and a large damping it stays while one looks, and creeps away under a push, which a policy learns
-to use.
+What a robot works at is part of the world: a body without a joint. With a free joint it may tip over when the robot
+leans on it; with slides and a large damping it stays while one looks, and creeps away under a push, which a policy
+learns to use.
 
 Bad:
 
@@ -20,7 +20,7 @@ Good:
 
     -       <joint type="slide" axis="1 0 0" damping="1000"/>
 
-The number: how many joints let it move. Told are bodies of the world whose name says that they are scenery and that
+The number: how many joints let it move. Told are bodies of the world whose name ends in a word for scenery and that
 have a free joint or three slides, and bodies with nothing but slides that nothing drives, holds or springs back and
 whose damping is 1,000 N s/m and more, up to 100,000: 100 N move it by 1 mm to 100 mm in a second.
 
@@ -60,6 +60,7 @@ SCENERY = frozenset(
         "wall",
     }
 )
+PARTS = ("top", "body", "link", "base", "left", "right", "front", "back", "main", "root", "l", "r")  # of its name
 DAMPED = (1e3, 1e5)  # N s/m
 
 
@@ -90,7 +91,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _called(of: Simulation, body: int) -> bool:
-    return bool(SCENERY & set(re.findall("[a-z]+", of.names("body")[body].lower())))
+    """Whether a name ends in such a word: a table_top or a wall_2, and no table_tennis_ball."""
+    words = [word for word in re.findall("[a-z]+", of.names("body")[body].lower()) if word not in PARTS]
+    return bool(words) and words[-1] in SCENERY
 
 
 def _anywhere(of: Simulation, joints: list[int]) -> bool:

@@ -63,7 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         now = " ".join(f"{x:.4g}" for x in of.row("site_pos", site, 3))
         body = of.name("body", of.body_of("site", site))
-        says = f"It hangs on {body}, and is {beyond:.3g} m outside of all that hangs together with that."
+        says = f"It hangs on {body}, and is {beyond:.3g} m outside of the box around all that moves with that."
         probe = Probe("distance outside of the box of its mechanism", "of its diagonal", _far, (site,), dynamic=False)
         yield Suspect((of.name("site", site),), "pos", now, "told from its body", (), probe, FAR, says, "below 0.3")
 

@@ -22,14 +22,16 @@ Good:
     -     <connect body1="box" anchor="0 0 0.05" solref="1 1"/>
     +     <connect body1="box" anchor="0 0 0.05" solref="0.01 1"/>
 
-The number: the time constant times the damping ratio in s, whose square is the inverse of the stiffness; more than 0.1,
-which is 25 times as soft as MuJoCo's own 0.02, or 0.3 where a mocap body pulls: with that a weight hangs 0.9 m below
-it. Or how far apart something is that is welded or connected, 2 s after letting go: more than 10 mm and 0.3 of the
-smaller body's radius, where a time constant of two timesteps at least halves it.
+The number: the time constant times the damping ratio in s, whose square is inverse to the stiffness; more than 0.1,
+which is a spring 25 times as soft as that of MuJoCo's own 0.02, or 0.3 where a mocap body pulls. With the default
+`solimp` a free body hangs 5 mm below its place at 0.1, 44 mm at 0.3 and 0.49 m at 1. Or how far apart something is that
+is welded or connected, 2 s after letting go: more than 10 mm and 0.3 of the smaller body's radius, where a time
+constant of two timesteps at least halves it.
 
 A coupling is also soft where joint1 follows by a small factor, as a bed follows its lead screw by 0.00127 m/rad: MuJoCo
-takes the mobility of both joints for that of the coupling, whatever the factor is. Where that is 50 times too much, and
-2 s after letting go joint1 is 5 % of its range off, exchanged joints and the inverse of the factor are told.
+takes the mobility of both joints for that of the coupling, whatever the factor is, unless the flag `diagexact` is on.
+Where that is 50 times too much, and 2 s after letting go joint1 is 5 % of its range off, exchanged joints and the
+inverse of the factor are told.
 
 When it is wrong: a mocap body that pulls gently, or another soft rope.
 """
@@ -67,7 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not soft:
         return
     worst = max(soft, key=lambda each: _softness(of, each))
-    now = " ".join(f"{x:g}" for x in of.row("eq_solref", worst, 2))
+    now, softer = " ".join(f"{x:g}" for x in of.row("eq_solref", worst, 2)), (_softness(of, worst) / 0.02) ** 2
     yield Suspect(
         tuple(of.name("equality", each) for each in soft),
         "solref",
@@ -76,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         model.set("equality", soft, "solref", OWN),
         Probe("time constant of an equality", "s", _softest, tuple(soft), dynamic=False),
         min(_most(of, each) for each in soft),
-        f"With solref {now} it is {(_softness(of, worst) / 0.02) ** 2:.0f} times as soft as MuJoCo's own.",
+        f"With solref {now} its spring is {softer:.0f} times as soft as with {OWN}, the default.",
         f"MuJoCo's own, {OWN}, or shorter",
     )
 
@@ -92,7 +94,7 @@ def _pulled_apart(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("greatest gap of what is held together, 2 s after letting go", "m", _widest, tuple(apart))
     now = " ".join(f"{x:g}" for x in of.row("eq_solref", worst, 2))
     one, other = (of.name("site" if sited(of, worst) else "body", each) for each in held(of, worst))
-    says = f"{one} and {other} are {1000 * apart[worst]:.3g} mm apart where the equality holds them together."
+    says = f"{one} and {other} are {1000 * apart[worst]:.3g} mm apart where the equality is to hold them together."
     edits, most = model.set("equality", list(apart), "solref", value), apart[worst] / 2
     names = tuple(of.name("equality", each) for each in apart)
     yield Suspect(names, "solref", now, value, edits, probe, most, says, "a few millimetres")

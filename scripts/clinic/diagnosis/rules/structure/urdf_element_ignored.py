@@ -1,7 +1,7 @@
-"""A URDF has an element that nobody reads.
+"""A URDF has an element that MuJoCo does not read.
 
-URDF places a joint by `<origin>`. `<pose>`, which is SDF, or `<limits>` for `<limit>`: MuJoCo and ROS pass over what
-they do not know, without a word, and the camera or the wheel stays at its parent's origin.
+URDF places a joint by `<origin>`. With a `<pose>`, which is SDF, in its place, what hangs on the joint stays at its
+parent's origin; with `<limits>` for `<limit>` the joint has no range. MuJoCo passes over such elements without a word.
 
 Bad:
 
@@ -23,8 +23,8 @@ Good:
     -     <pose>0.1 0 0.3 0 0 0</pose>
     +     <origin xyz="0.1 0 0.3" rpy="0 0 0"/>
 
-The number: how many such elements stand in joints, and in the inertials, visuals and collisions of links. So is a
-`<mimic>` passed over that names a joint which is not there.
+The number: how many such elements stand in joints, and in the inertials, visuals and collisions of links. A `<mimic>`
+that names a joint which is not there is passed over, too, with a warning.
 
 When it is wrong: an element of another program, which reads it.
 """

@@ -37,7 +37,8 @@ Good:
     +     <position name="right" joint="right" kp="1000" kv="10" ctrlrange="0 0.03"/>
 
 The number: the weight of a free thing that was put between the jaws over what friction carries, once they went to an
-end of their controls for 1 s. The grippers of three healthy models carry 12 to 74 times the weight.
+end of their controls for 1 s; told from a third on. The grippers of three healthy models carry 12 to 74 times the
+weight.
 
 When it is wrong: a thing that is not to be lifted, or jaws whose force code sets.
 """

@@ -64,10 +64,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     now = " ".join(f"{x:g}" for x in of.row("geom_friction", rough[0], 3))
     probe = Probe("coefficient of friction", "", _most, rough, dynamic=False)
-    edits = model.set("geom", rough, "friction", "1 0.005 0.0001")
+    values = {geom: _plain(*of.row("geom_friction", geom, 3)) for geom in rough}
+    edits = model.set_each("geom", "friction", values)
     says = "Rubber on concrete has about 1."
     names = tuple(of.name("geom", geom) for geom in rough)
-    yield Suspect(names, "friction", now, "1 0.005 0.0001", edits, probe, MOST, says, "1, MuJoCo's default")
+    yield Suspect(names, "friction", now, values[rough[0]], edits, probe, MOST, says, "1, MuJoCo's default")
+
+
+def _plain(_: float, torsional: float, rolling: float) -> str:
+    """The friction of MuJoCo's default, with the other two numbers as they are where they may be meant."""
+    return written((1.0, torsional if torsional < 1 else 0.005, rolling if rolling <= ARM else 0.0001))
 
 
 def _rolling(model: ReaderModel) -> Iterator[Suspect]:

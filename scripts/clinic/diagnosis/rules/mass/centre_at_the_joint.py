@@ -70,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     keen = model.symptom == FAMILIES[0]
     heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * of.moving_mass]
     heavy = [(body, each) for body, each in heavy if keen or _turns(of, body)]
-    here = [(body, each) for body, each in heavy if not any(each.centre)]
+    here = [(body, each) for body, each in heavy if not any(each.centre) and not _hung_aside(of, body)]
     found = [(body, each) for body, each in here if norm(each.solid_centre) > FAR * max(each.half)]
     if len(found) != 1 and not keen:
         found = [(body, each) for body, each in found if each.outside > OUTSIDE * max(each.half)]
@@ -80,6 +80,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         far, crowded = norm(sub(each.solid_centre, each.centre)), _crowded(of, body)
         if (body, each) not in found and crowded <= TWICE:
             continue
+        where = "in its joint" if of.joints_of(body) else "at its origin"
         probe = Probe("middle of the geoms from the centre of mass", "half lengths", _apart, (body,), dynamic=False)
         if crowded > TWICE:
             probe = Probe("spread of the mass over the room for it", "times", _crowded, (body,), dynamic=False)
@@ -91,7 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             set_inertial(model, body, each.mass, each.solid_centre, each.about),
             probe,
             TWICE if crowded > TWICE else FAR,
-            f"{each.mass:.3g} kg lie in its joint, and the middle of its geoms {far:.3g} m from there.",
+            f"{each.mass:.3g} kg lie {where}, and the middle of its geoms {far:.3g} m from there.",
             "where the geoms are",
         )
 
@@ -113,6 +114,11 @@ def _crowded(of: Simulation, body: int) -> float:
     room, own = ((high - at[side]) * (at[side] - low) for at in (found.centre, found.solid_centre))
     on_axis = norm(cross(axis, off)) < ON * max(found.half)
     return spread / max(room, TINY * own) if on_axis and 0 < spread < own else 0.0
+
+
+def _hung_aside(of: Simulation, body: int) -> bool:
+    """Whether a joint of a body is not at its origin."""
+    return any(any(of.row("jnt_pos", joint, 3)) for joint in of.joints_of(body))
 
 
 def _turns(of: Simulation, body: int) -> bool:

@@ -1,6 +1,6 @@
 """A geom stands twice in its body.
 
-Copied and not changed: the body weighs twice as much, and nothing of it can be seen.
+Copied and not changed: without an `<inertial>` its mass counts twice, and nothing of it can be seen.
 
 Bad:
 

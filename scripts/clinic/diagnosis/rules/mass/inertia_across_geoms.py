@@ -76,7 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             (model.simulation.name("body", body),),
             "inertial",
-            "quat " + (model.value("body", body, "quat") or "left out"),
+            _quat(model, body),
             "axes of the geoms",
             _turned(model, body, found),
             across(body),
@@ -90,7 +90,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             tuple(model.simulation.name("body", body) for body in wheels),
             "inertial",
-            "quat " + (model.value("body", next(iter(wheels)), "quat") or "left out"),
+            _quat(model, next(iter(wheels))),
             "axes of the geoms",
             tuple(edit for _, edits in wheels.values() for edit in edits),
             flat(*wheels),
@@ -99,6 +99,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "a disk has 1.5, a wheel as wide as its radius 1.2",
             level="hint",
         )
+
+
+def _quat(model: ReaderModel, body: int) -> str:
+    element = inertial(model, body)
+    return "quat " + ((element.get("quat") if element is not None else "") or "left out")
 
 
 def _turn_left_out(model: ReaderModel, body: int) -> bool:

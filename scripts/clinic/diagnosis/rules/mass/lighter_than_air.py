@@ -1,6 +1,7 @@
 """Something that moves and collides weighs less than the air in its place.
 
-A density of 1e-5, or a mass in the wrong unit: a contact throws it away, or goes through it, whatever the solver does.
+A density of 1e-5, or a mass in the wrong unit: a small force throws it away, and what is heavy goes through it. A box
+of 5 kg stands on a cylinder of 80 g, and sinks through one of 40 g to the floor.
 
 Bad:
 

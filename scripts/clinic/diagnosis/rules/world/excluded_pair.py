@@ -1,7 +1,7 @@
 """An `<exclude>` forbids a contact that is needed.
 
-`<exclude>` takes two bodies out of collision detection altogether. It is meant for relatives that overlap; between a
-robot or an object and the world, it takes the floor away.
+`<exclude>` keeps two bodies from touching each other; only a `<pair>` of their geoms still does. It is meant for
+relatives that overlap. Between a robot or an object and the world, it takes the floor away.
 
 Bad:
 

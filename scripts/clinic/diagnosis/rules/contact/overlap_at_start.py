@@ -1,8 +1,8 @@
 """Something begins inside of something else, and is thrown out.
 
 A free body whose `pos`, or whose place in a keyframe, lies within the floor, a table or another body is pushed out by
-the contact's spring within a few steps: it leaps. `size` of a box is half of its edge, a common reason; a radius in
-another unit is one too.
+the contact's spring. With default contacts a box that is 2 cm deep rises within 0.1 s, one of 15 cm leaps by 30 cm.
+`size` of a box is half of its edge, a common reason; a radius in another unit is one too.
 
 Bad:
 
@@ -30,8 +30,8 @@ plane, and has more than 0.6 of its height below; of 260 healthy models the deep
 slides on the world, of which a geom has more than 0.6 of its thickness in a plane, where no keyframe raises it.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
-like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside
-of its joints' ranges, there is only a hint.
+like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside of
+its joints' ranges, there is only a hint.
 """
 
 from __future__ import annotations

@@ -22,9 +22,9 @@ Good:
 
 The number: a push, once at rest, at the speed of a fall over a twentieth of the radius of the smallest thing that is
 pushed; with friction 0.3 it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15,
-is well. PTFE on PTFE has 0.04, wet ice less, steel on steel 0.4 and more. Geoms without friction that can touch each
-other later are a hint, and so are the pads of fingers that decide by their priority, with less than 0.05: they touch
-nothing at the start.
+is well; tried is friction below 0.12. PTFE on PTFE has 0.04, wet ice less, steel on steel 0.4 and more. Geoms without
+friction that can touch each other later are a hint, and so are the pads of fingers that decide by their priority, with
+less than 0.05: they touch nothing at the start.
 
 When it is wrong: ice.
 """

@@ -28,8 +28,9 @@ Good:
     +     <geom name="floor" type="plane" size="3 3 0.1" contype="0" conaffinity="0"/>
 
 The number: the share of 36 poses of a hinge, the other joints at their start, in which what hangs on it is inside of
-something that is fixed to the world, by more than a tenth of the thinner geom. Looked at are hinges that have no range,
-no drive and no vertical axis, of what cannot fall, in a model of at most four joints.
+something that is fixed to the world, by more than a tenth of the thinner geom; told where it is less than 0.9, and the
+start is free. Looked at are hinges that have no range, no drive and no vertical axis, of what cannot fall, in a model
+of at most four joints.
 
 When it is wrong: a pendulum that is meant to hit something. Only intent knows whether it hangs too low: a hint.
 """

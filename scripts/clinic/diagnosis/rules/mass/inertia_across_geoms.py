@@ -20,12 +20,12 @@ Good:
     -       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0002 0.0135 0.0135"/>
     +       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
 
-The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
-its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
-Where the geoms have up to 0.5, more than 1.2 is told of a trunk, and of a body whose `diaginertia` alone lacks the
-`quat` that the others' have. What makes whole turns, as wheels do, is the other way round: where the geoms have more
-than 1.25 about their own axis, less than 0.9 is a hint; so it is where the body has the very numbers of its geoms, and
-about another axis.
+The number: the inertia about the longest axis of the geoms, where the mean of the three is 1; more than 1 is told. A
+thin rod has 0 about its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none
+has more than 0.9. Where the geoms have up to 0.5, more than 1.2 is told of a trunk, and of a body whose `diaginertia`
+alone lacks the `quat` that the others' have. What makes whole turns, as wheels do, is the other way round: where the
+geoms have more than 1.25 about their own axis, less than 0.9 is a hint; so it is where the body has the very numbers of
+its geoms, and about another axis.
 
 When it is wrong: a long cover around a flat motor; a hand, whose motor lies across it. In four of 160 models of other
 people that had another fault a hand or a finger was so: a hint.

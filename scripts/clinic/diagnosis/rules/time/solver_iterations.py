@@ -21,8 +21,8 @@ Good:
     -   <option iterations="1" solver="PGS"/>
     +   <option iterations="100" solver="PGS"/>
 
-The number: the fastest joint after letting go and under command, and how deep contacts are; told where MuJoCo's own
-iterations and tolerance bring it to half and below the limit.
+The number: the fastest joint after letting go and under command, above 20 rad/s, and how deep contacts are, above 0.005
+of the model's extent; told where MuJoCo's own iterations and tolerance bring it to half or less.
 
 When it is wrong: a model for learning, whose makers traded that for speed.
 """

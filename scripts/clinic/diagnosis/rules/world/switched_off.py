@@ -123,7 +123,7 @@ def _flags(of: Simulation) -> dict[str, tuple[str, int, str]]:
         "frictionloss": ("enable", friction, f"is disabled: no dry friction holds a joint ({friction} of them)."),
         "filterparent": ("enable", parents, f"is disabled: links collide with what they hang on ({parents} of them)."),
         "override": ("disable", of.count("geom"), "is enabled: every contact has what `<option>` says in o_friction, "
-                     "o_solref, o_solimp and o_margin, and nothing of its geoms."),
+                     "o_solref, o_solimp and o_margin, in place of what its geoms have."),
     }  # fmt: skip
 
 

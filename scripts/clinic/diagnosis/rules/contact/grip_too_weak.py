@@ -56,7 +56,7 @@ TITLE = "Jaws that press too weakly"
 FAMILIES = ("slips",)
 UNPLANTED = "most healthy models have nothing to grasp"
 
-FEW, TIMES = 3.0, 5.0  # times the weight; times the gain
+FEW, TIMES, HELPS = 3.0, 5.0, 0.6  # times the weight; times the gain; of what is needed
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,6 +74,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{of.name('body', found.body)} weighs {found.weight:.3g} N."
         )
         first, probe = found.jaws.actuators[0], needed(found)
-        now, value = f"{of.gain(first)[0]:g}", f"{gains[first]:g}"
-        yield Suspect(names, "kp", now, value, edits, probe, 1 / FEW, says, "a third of what is carried", level="hint")
+        told = "kp", f"{of.gain(first)[0]:g}", f"{gains[first]:g}"
+        if edits and model.measured(probe, edits) > HELPS * model.measured(probe):  # at the end of its force already
+            told, edits = ("forcerange", model.value("actuator", first, "forcerange") or "", "a wider one"), ()
+        yield Suspect(names, *told, edits, probe, 1 / FEW, says, "a third of what is carried", level="hint")
         return

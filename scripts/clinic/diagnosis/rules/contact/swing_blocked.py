@@ -65,8 +65,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = (of.name("joint", joint), *(of.name("geom", geom) for geom in stops))
         probe = Probe("share of a turn that is blocked", "", _share, (joint,), dynamic=False)
         says = f"No range ends it, and in {100 * share:.0f} % of a turn what hangs on it is inside of {names[1]}."
-        edits = (*model.set("geom", stops, "contype", "0"), *model.set("geom", stops, "conaffinity", "0"))
-        yield Suspect(names, "contype", "1", "0", edits, probe, 0, says, "a pivot higher than the pendulum is long")
+        masks = () if falling(of) else ("contype", "conaffinity")  # which another thing stands on
+        edits = tuple(edit for mask in masks for edit in model.set("geom", stops, mask, "0"))
+        value = "0" if edits else ""
+        yield Suspect(names, "contype", "1", value, edits, probe, 0, says, "a pivot higher than the pendulum is long")
 
 
 def _pendulums(of: Simulation) -> list[int]:

@@ -47,6 +47,7 @@ UNPLANTED = "no healthy model has a ball that is meant to stop"
 
 MOST = 0.99  # of the speed
 DEFAULT, BRAKE, ARM = 0.0001, 0.005, 0.1  # m of rolling friction; of the radius
+KEPT = {"geom": 2, "pair": 3}  # coefficients before those of rolling
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -76,11 +77,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if meant and on_ground and all(each.dim < 6 for each in meant):
             says = f"With condim {meant[0].dim} a contact has no rolling friction."
             meant = [replace(each, elements=geoms) if {*geoms} <= {*each.elements} else each for each in meant]
-            slide, turn, _ = simulation.row("geom_friction", geoms[0], 3)
-            arm = min(BRAKE, ARM * simulation.model("geom_size")[3 * geoms[0]])
-            friction = {"geom": written((slide, turn, arm)), "pair": f"1 1 0.005 {arm:g} {arm:g}"}
+            kind, arm = meant[0].kind, min(BRAKE, ARM * simulation.model("geom_size")[3 * geoms[0]])
+            meant = [each for each in meant if each.kind == kind]
+            kept = simulation.row(f"{kind}_friction", meant[0].elements[0], 5 if kind == "pair" else 3)[: KEPT[kind]]
+            friction = written((*kept, *((arm, arm) if kind == "pair" else (arm,))))
             edits = edits_of(model, meant, "condim", "6") + edits_of(model, meant, "friction", friction)
-            value = f"6, friction {friction[meant[0].kind]}"
+            value = f"6, friction {friction}"
             yield Suspect(
                 names_of(simulation, meant), "condim", f"{meant[0].dim}", value, edits,
                 rolls_on(body), MOST, says, level="hint",

@@ -39,7 +39,7 @@ from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
 from clinic.diagnosis.probes.key import start_at
-from clinic.diagnosis.probes.shape import boxes, falling, geoms_of_tree, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, falling, geoms_of_tree, in_pairs, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -81,7 +81,8 @@ def _feet(model: ReaderModel, written: list[Element]) -> Iterator[Suspect]:
     of = model.simulation
     if not written or not any(int(of.model("geom_type")[geom]) == PLANE for geom in of.geoms_of(0)):
         return
-    owner, lowest = root_of(of), {of.names("body")[body]: body for body in _lowest(of)}
+    paired = {of.body_of("geom", geom) for geom in in_pairs(of)}  # which touch it all the same
+    owner, lowest = root_of(of), {of.names("body")[body]: body for body in _lowest(of) - paired}
     fall = {root for root, _ in fallen(of)}
     meant = []
     for each in written:

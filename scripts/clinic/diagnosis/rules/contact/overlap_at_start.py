@@ -26,8 +26,9 @@ well. Below 0.35 it is a cause only where something leaves so fast that it would
 contacts push out gently up to about 50 mm.
 
 A base that is fixed to the world is pushed by nothing. A hint tells of one that carries joints, all of them above a
-plane, and has more than 0.6 of its height below; of 260 healthy models the deepest has 0.5. So is a mechanism that
-slides on the world, of which a geom has more than 0.6 of its thickness in a plane, where no keyframe raises it.
+plane, and has more than 0.6 of its height below; of 260 healthy models the deepest has 0.5. It tells, too, of a
+mechanism that slides on the world and has a geom with more than 0.6 of its thickness in a plane, where no keyframe
+raises it.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
 like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside of

@@ -31,7 +31,8 @@ Good:
     +         <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
 
 The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
-of one link that a hinge turns, where no other is so; of several where the joint is half of that outside of the box.
+of one link that a hinge turns, where no other is so; of several, where the joint is more than half a half length
+outside of the box.
 
 With `--symptom wrong-mass` every such link is told, of one that is fixed to its parent as well.
 

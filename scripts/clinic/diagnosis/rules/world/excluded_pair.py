@@ -24,9 +24,9 @@ Good:
     -     <exclude body1="world" body2="box"/>
     -   </contact>
 
-The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go; and how many
-excludes are between the world and one of the parts that a robot stands on, which reach as low as any other of it but
-for 2 % of its height, a limb's end for 15 %, at the start or in its first keyframe.
+The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go. And how many
+excludes are between the world and a part that a robot stands on: it reaches as low as any other part, to within 2 % of
+the robot's height, or 15 % for the end of a limb, at the start or in the first keyframe.
 
 When it is wrong: something that is meant to pass.
 """

@@ -86,7 +86,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     based = model.urdf and any(0 in pair for pair in deep)
     if not deep or (based and (len(roots(simulation)) > 1 or longest_row(simulation) < ARM)):
         return  # what a URDF has for a base is often carried by something else, but for that of a single arm
-    static = any(not root_of(simulation)[body] for pair in deep for body in pair)
+    owner = root_of(simulation)
+    static = any(not owner[one] and not owner[simulation.parent(other)] for one, other in deep)
     says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (
         "; the parent is fixed to the world, so that the filter of parents does not apply." if static else "."
     )

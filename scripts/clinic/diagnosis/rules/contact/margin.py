@@ -108,7 +108,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         model.set("pair", pairs, "margin", "0") if pairs else ()
     )
     most = max([margins[geom] for geom in wide] + [simulation.model("pair_margin")[i] for i in pairs])
-    names = tuple(simulation.name("geom", geom) for geom in wide)
+    names = tuple(simulation.name(kind, i) for kind, some in (("geom", wide), ("pair", pairs)) for i in some)
     probe = Probe("widest gap of a contact that carries, at rest", "of the geom's thickness", _hovers)
     says = f"A margin of {most:g} m carries before anything touches."
     yield Suspect(names, "margin", f"{most:g}", "0", edits, probe, MOST, says, "0, MuJoCo's default", excess=3.0)

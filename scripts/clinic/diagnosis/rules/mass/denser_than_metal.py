@@ -1,7 +1,7 @@
 """A body is denser than any metal.
 
-A mass in grams, a decimal point that is missing, a mesh that is scaled and a mass that is not. What is attached to it
-cannot carry it, and what it touches is squeezed out.
+A mass in grams, a decimal point that is missing, a mesh that is scaled and a mass that is not. The servos above it
+cannot carry it, and what it touches is pressed in.
 
 Bad:
 

@@ -1,7 +1,7 @@
 """A coefficient of friction that no two materials have.
 
-With the elliptic cone `friction="1000 1000 1000"` holds a thing on nearly any slope, and hides what is wrong with a
-grasp. With the pyramidal one it makes contacts so soft that the thing sinks or slides all the same.
+With the elliptic cone `friction="1000 1000 1000"` holds a thing on a slope of 75 degrees, and hides what is wrong with
+a grasp. With the pyramidal one it makes contacts so soft that the thing sinks or slides all the same.
 
 Bad:
 

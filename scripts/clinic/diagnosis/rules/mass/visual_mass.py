@@ -1,8 +1,8 @@
 """Geoms that are only seen have mass beside those that collide.
 
 A geom with `contype="0" conaffinity="0"` still counts into the inertia of its body, at 1000 kg/m3 where nothing else is
-written. Beside a colliding geom of the same shape the body weighs twice what it should. Geoms of the same group that
-are larger or smaller than what collides are taken for parts, not for a skin.
+written. Beside a colliding geom of the same shape the same matter counts twice. Geoms of the same group that are larger
+or smaller than what collides are taken for parts, not for a skin.
 
 Bad:
 

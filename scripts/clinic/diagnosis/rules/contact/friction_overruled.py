@@ -22,7 +22,7 @@ Good:
     +       <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15" priority="1"/>
 
 The number: the least sliding friction of the contacts on which the geom rests after 2 s, over its own, above 4; told of
-frictions up to 0.2. MuJoCo's manual, Computation, Contact: the element-wise maximum.
+frictions up to 0.2. MuJoCo's manual, Modeling, Contact parameters: the element-wise maximum.
 
 When it is wrong: a geom that is slippery against others, which it does not touch here.
 """

@@ -13,7 +13,7 @@ from clinic.diagnosis.suspect import probe
 
 FRICTION = 0.3  # stops what is pushed within the time that the probe waits
 GRAVITY = 9.81
-PART = 0.1  # a push as fast as a fall over this part of the thing's size: without friction it slides by a third of it
+PART = 0.1  # a push as fast as a fall over half this part of the thing's radius: without friction it slides by a third
 
 
 @probe("pushed at rest, its contacts still slide with", "of the push's speed")

@@ -27,7 +27,7 @@ class Deciding:
 
 
 def deciding(simulation: Simulation, contact: Contact) -> Deciding:
-    """Of a contact's geoms; MuJoCo's manual, Computation, Contact parameters."""
+    """Of a contact's geoms; MuJoCo's manual, Modeling, Contact parameters."""
     if (index := pair_of(simulation, *contact.geoms)) is not None:
         friction = simulation.row("pair_friction", index, 5)[0]
         return Deciding(int(simulation.model("pair_dim")[index]), friction, "pair", (index,))

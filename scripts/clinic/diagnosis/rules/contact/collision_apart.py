@@ -45,6 +45,7 @@ AFLOAT = True
 UNPLANTED = "a collision shape that is moved aside harms by what happens to be there"
 
 MOVED, TURNED = 2.0, 5.0  # mm; degrees
+SAME = 1e-5  # m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -90,4 +91,8 @@ def _turned(of: Simulation, one: int, other: int) -> float:
         return math.degrees(2 * math.acos(min(1.0, abs(dot(*quaternions)))))
     first, second = (transpose(of_quaternion(each)) for each in quaternions)
     kept = (2,) if kind in (CAPSULE, CYLINDER) else (0, 1, 2)
-    return max(math.degrees(math.acos(min(1.0, abs(dot(at(first, i), at(second, i)))))) for i in kept)
+    size = of.row("geom_size", one, 3)
+    alike = {i: [j for j in kept if abs(size[i] - size[j]) < SAME] for i in kept}  # a cube has three alike
+    return max(
+        min(math.degrees(math.acos(min(1.0, abs(dot(at(first, i), at(second, j)))))) for j in alike[i]) for i in kept
+    )

@@ -23,8 +23,8 @@ Good:
     -       <geom name="box" type="box" size="0.05 0.05 0.05" condim="1"/>
     +       <geom name="box" type="box" size="0.05 0.05 0.05"/>
 
-The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
-it would be over when the probe looks. Below 0.3 of the push's speed is well.
+The number: a push, once at rest, at the speed of a fall over a twentieth of the radius of the smallest thing that is
+pushed; with friction 0.3 it would be over when the probe looks. Below 0.3 of the push's speed is well.
 
 When it is wrong: a puck on air. A robot of which some geoms have friction, such as its feet, is left alone.
 """

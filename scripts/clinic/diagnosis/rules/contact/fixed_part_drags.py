@@ -34,9 +34,9 @@ Good:
     -       <geom name="caster" type="sphere" size="0.015" pos="-0.11 0 -0.02" mass="0.02"/>
     +       <geom name="caster" type="sphere" size="0.015" pos="-0.11 0 -0.02" mass="0.02" condim="1" priority="1"/>
 
-The number: what friction of the parts that have no joint but the free one takes, as a share of the weight, once the
-robot stands on driven wheels and on them; above 0.05 is told. A wheel is a body that a driven level hinge without a
-range turns about the middle of one of its geoms.
+The number: what friction above 0.3 of the parts that have no joint but the free one takes, as a share of the weight,
+once the robot stands on driven wheels and on them; above 0.05 is told. A wheel is a body that a driven level hinge
+without a range turns about the middle of one of its geoms.
 
 When it is wrong: a foot that a robot is meant to drag.
 """

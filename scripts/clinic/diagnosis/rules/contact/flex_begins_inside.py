@@ -1,7 +1,7 @@
 """A cloth, rope or soft body begins inside of a geom.
 
-Its points are pushed out within a few steps: it leaps. Those in the middle of a thick geom may leave by the other side,
-and a cloth then hangs on a post that goes through it. `pos` of a `<flexcomp>` is the middle of its grid, not its base.
+Its points are pushed out: it leaps. Those in the middle of a thick geom may leave by the other side, and a cloth then
+hangs on a post that goes through it. `pos` of a `<flexcomp>` is the middle of its grid, not its base.
 
 Bad:
 

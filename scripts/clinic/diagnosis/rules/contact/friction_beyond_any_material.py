@@ -1,7 +1,7 @@
 """A coefficient of friction that no two materials have.
 
-`friction="1000 1000 1000"` does not hold a thing any better than 2 does: with the pyramidal cone it makes contacts soft
-and lets the thing creep or sink, and it hides what is wrong with the grasp.
+With the elliptic cone `friction="1000 1000 1000"` holds a thing on a slope of 75 degrees, and hides what is wrong with
+a grasp. With the pyramidal one it makes contacts so soft that the thing sinks or slides all the same.
 
 Bad:
 
@@ -22,11 +22,11 @@ Good:
     +       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2"/>
 
 The number: the largest coefficient of sliding friction; rubber on concrete has about 1, and none of 208 files of robots
-has more than 10. Told are those from 20 on. Where `condim` is 6, so is the third coefficient from 0.05 m on: it is the
-arm with which a contact brakes what rolls. And so is a third one of ten times the second and more: the two are
-exchanged, for the order is sliding, torsional, rolling, and nothing that turns on the spot rolls harder than that.
-Where `condim` is 4 or 6, the second coefficient may be read as the diameter of the patch that touches (MuJoCo's manual,
-Computation, Contact): told is one of more than five times the size of what rests on a plane, which cannot pivot there.
+has more than 10. Told are those above 20. Where `condim` is 6, so is a third coefficient above 0.05 m: it is the arm
+with which a contact brakes what rolls. And so is a third one of ten times the second and more: the two are taken for
+exchanged, for the order is sliding, torsional, rolling. Where `condim` is 4 or 6, the second coefficient may be read as
+the diameter of the patch that touches (MuJoCo's manual, Computation, Contact): told is one of more than five times the
+size of what rests on a plane, which cannot pivot there.
 
 When it is wrong: something that stands for glue.
 """
@@ -64,10 +64,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     now = " ".join(f"{x:g}" for x in of.row("geom_friction", rough[0], 3))
     probe = Probe("coefficient of friction", "", _most, rough, dynamic=False)
-    edits = model.set("geom", rough, "friction", "1 0.005 0.0001")
+    values = {geom: _plain(*of.row("geom_friction", geom, 3)) for geom in rough}
+    edits = model.set_each("geom", "friction", values)
     says = "Rubber on concrete has about 1."
     names = tuple(of.name("geom", geom) for geom in rough)
-    yield Suspect(names, "friction", now, "1 0.005 0.0001", edits, probe, MOST, says, "1, MuJoCo's default")
+    yield Suspect(names, "friction", now, values[rough[0]], edits, probe, MOST, says, "1, MuJoCo's default")
+
+
+def _plain(_: float, torsional: float, rolling: float) -> str:
+    """The friction of MuJoCo's default, with the other two numbers as they are where they may be meant."""
+    return written((1.0, torsional if torsional < 1 else 0.005, rolling if rolling <= ARM else 0.0001))
 
 
 def _rolling(model: ReaderModel) -> Iterator[Suspect]:

@@ -1,8 +1,8 @@
 """A slippery geom is not slippery: what it touches has more friction, and MuJoCo takes the larger of the two.
 
 The friction of a contact is that of the geom with the higher `priority`; with equal ones it is the larger number. So
-`friction="0"` on a block alone changes nothing on a floor that has MuJoCo's default of 1, nor does a floor of ice below
-a block of it.
+`friction="0"` on a block alone changes nothing on a floor that has MuJoCo's default of 1, nor does a slippery floor
+below a block that has the default.
 
 Bad:
 
@@ -21,8 +21,8 @@ Good:
     -       <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15"/>
     +       <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15" priority="1"/>
 
-The number: the least sliding friction of the contacts on which the geom rests after 2 s, over its own, from 4 on; told
-of frictions up to 0.2. MuJoCo's manual, Computation, Contact: the element-wise maximum.
+The number: the least sliding friction of the contacts on which the geom rests after 2 s, over its own, above 4; told of
+frictions up to 0.2. MuJoCo's manual, Modeling, Contact parameters: the element-wise maximum.
 
 When it is wrong: a geom that is slippery against others, which it does not touch here.
 """

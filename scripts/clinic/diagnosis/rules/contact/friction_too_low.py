@@ -1,7 +1,7 @@
 """Friction next to nothing, or a slippery geom that has the last word.
 
-Of two geoms the larger friction counts, unless one has a higher `priority`: then its own counts alone, however small.
-A `<pair>` has its own.
+Of two geoms the larger friction counts, unless one has a higher `priority`: then its own counts alone, however small. A
+`<pair>` has its own.
 
 Bad:
 
@@ -20,10 +20,11 @@ Good:
     -       <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.05" priority="1"/>
     +       <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.5" priority="1"/>
 
-The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
-it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has
-0.04, wet ice less, steel on steel 0.4 and more. Geoms without friction that can touch each other later are a hint, and
-so are the pads of fingers that decide by their priority, with less than 0.05: they touch nothing at the start.
+The number: a push, once at rest, at the speed of a fall over a twentieth of the radius of the smallest thing that is
+pushed; with friction 0.3 it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15,
+is well; tried is friction below 0.12. PTFE on PTFE has 0.04, wet ice less, steel on steel 0.4 and more. Geoms without
+friction that can touch each other later are a hint, and so are the pads of fingers that decide by their priority, with
+less than 0.05: they touch nothing at the start.
 
 When it is wrong: ice.
 """
@@ -85,7 +86,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 excess=LOW / max(least, 1e-6),
             )
             return
-    says = f"Friction {least:g} holds nothing on a slope of {100 * least:.2g} %."
+    says = f"Friction {least:g} holds nothing on a slope steeper than {100 * least:.2g} %."
     low = with_like(simulation, low, lambda geom: frictions[3 * geom] < LOW)
     edits = edits_of(model, low, "friction", DRY)
     yield Suspect(

@@ -42,8 +42,9 @@ The number: how far from the mesh's own surface another mechanism touches it wit
 radius, or of 2.5 radii of what touches it where that is less; below 0.15 is well. MuJoCo's manual, Computation,
 Collision detection: meshes are replaced by their hulls. The edit, `type="sdf"`, collides with the surface itself: it is
 slow and may shake, and proves the cause. What to build instead are primitives, or the mesh cut into convex pieces.
-So it is with a ball, capsule or cylinder that begins in the hull by a twentieth of its radius and does not meet the
-surface, a bar in a hook. A hint tells of meshes that begin so in each other's hulls, as the links of a chain do.
+Told, too, is a ball, capsule or cylinder that begins more than a twentieth of a radius inside of the hull and does not
+meet the surface, as a bar in a hook. A hint tells of meshes that begin so in each other's hulls, as the links of a
+chain do.
 
 When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism, and two mechanisms
 that collide, are not looked at.

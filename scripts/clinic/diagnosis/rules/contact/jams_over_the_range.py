@@ -1,7 +1,7 @@
 """Two links of a mechanism run into each other within the range of the joint between them.
 
-MuJoCo lets a body pass through its parent and through nothing else. A link that hits its grandparent, or the link after
-the next, at some angle of its range stops there, however strong the servo is.
+MuJoCo lets a body pass through its parent, but not through its grandparent. A link that hits it at some angle of its
+range stops there, and its servo presses on.
 
 Bad:
 

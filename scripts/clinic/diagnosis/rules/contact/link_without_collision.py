@@ -35,11 +35,11 @@ Good:
     -           <geom type="capsule" fromto="0 0 0.04 0 0 0.26" size="0.03" contype="0" conaffinity="0"/>
     +           <geom type="capsule" fromto="0 0 0.04 0 0 0.26" size="0.03"/>
 
-The number: how many of a robot's links have geoms and none that collides; one alone is told, or two, of five and more,
-where it is more than half as large as the link in the middle, weighs more than 2 % of the robot, is not by three
-quarters inside of the boxes around the links beside it, and the link before it collides; or one limb, such as a tail,
-of up to a third of the links and more than 5 % of the mass. With `--symptom falls-through` it tells all such links of a
-robot that is free and stands on others.
+The number: how many of a robot's links have geoms and none that collides; told is one, or two, of five links and more.
+Such a link is more than half as large as the link in the middle and weighs more than 2 % of the robot. It is not by
+three quarters inside of the boxes around the links beside it, and the link before it collides. So is one limb, such as
+a tail, of up to a third of the links and more than 5 % of the mass. With `--symptom falls-through` it tells all such
+links of a robot that is free and stands on others.
 
 When it is wrong: a link that another one encloses.
 """

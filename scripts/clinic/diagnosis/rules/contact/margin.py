@@ -1,8 +1,8 @@
 """Contacts push before anything touches: a large `margin`.
 
-Since MuJoCo 3.9 `margin` is a layer around the geom: things rest on it, in the air. The margins of both geoms are
-added. Before, `margin` = `gap` meant contacts that are seen and do not push; now the same text lifts things by the
-margin.
+`margin` is a layer around the geom: things rest on it, in the air. The margins of both geoms are added. Before MuJoCo
+3.9 the `gap` was taken off: `margin` = `gap` made contacts that are seen and do not push. Now the same text lifts
+things by the margin.
 
 Bad:
 
@@ -82,7 +82,7 @@ def _thick(model: ReaderModel) -> Iterator[Suspect]:
     if wide and reach > 0:
         most, names = max(margins[geom] for geom in wide), tuple(of.name("geom", geom) for geom in wide)
         probe = Probe("widest margin", "m", _widest, dynamic=False)
-        says = f"It pushes what is {most:g} m away; the largest thing here reaches {reach:.2g} m."
+        says = f"It pushes what is less than {most:g} m away; the largest thing here reaches {reach:.2g} m."
         edits, limit = model.set("geom", wide, "margin", "0"), max(THICK, PART * reach)
         healthy = "0, MuJoCo's default"
         yield Suspect(names, "margin", f"{most:g}", "0", edits, probe, limit, says, healthy, level="hint")
@@ -108,7 +108,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         model.set("pair", pairs, "margin", "0") if pairs else ()
     )
     most = max([margins[geom] for geom in wide] + [simulation.model("pair_margin")[i] for i in pairs])
-    names = tuple(simulation.name("geom", geom) for geom in wide)
+    names = tuple(simulation.name(kind, i) for kind, some in (("geom", wide), ("pair", pairs)) for i in some)
     probe = Probe("widest gap of a contact that carries, at rest", "of the geom's thickness", _hovers)
     says = f"A margin of {most:g} m carries before anything touches."
     yield Suspect(names, "margin", f"{most:g}", "0", edits, probe, MOST, says, "0, MuJoCo's default", excess=3.0)

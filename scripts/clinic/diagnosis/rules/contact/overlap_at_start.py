@@ -1,8 +1,8 @@
 """Something begins inside of something else, and is thrown out.
 
 A free body whose `pos`, or whose place in a keyframe, lies within the floor, a table or another body is pushed out by
-the contact's spring within a few steps: it leaps. `size` of a box is half of its edge, a common reason; a radius in
-another unit is one too.
+the contact's spring. With default contacts a box that is 2 cm deep rises within 0.1 s, one of 15 cm leaps by 30 cm.
+`size` of a box is half of its edge, a common reason; a radius in another unit is one too.
 
 Bad:
 
@@ -26,12 +26,13 @@ well. Below 0.35 it is a cause only where something leaves so fast that it would
 contacts push out gently up to about 50 mm.
 
 A base that is fixed to the world is pushed by nothing. A hint tells of one that carries joints, all of them above a
-plane, and has more than 0.6 of its height below; of 260 healthy models the deepest has 0.5. So is a mechanism that
-slides on the world, of which a geom has more than 0.6 of its thickness in a plane, where no keyframe raises it.
+plane, and has more than 0.6 of its height below; of 260 healthy models the deepest has 0.5. It tells, too, of a
+mechanism that slides on the world and has a geom with more than 0.6 of its thickness in a plane, where no keyframe
+raises it.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
-like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside
-of its joints' ranges, there is only a hint.
+like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside of
+its joints' ranges, there is only a hint.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Parts of one mechanism overlap at the start, and throw each other.
 
 MuJoCo does not let a body collide with its parent, unless the parent is fixed to the world: then it does. Grandparents
-and siblings always do. Where their geoms overlap by design, an `<exclude>` is missing.
+and siblings do, where their masks match. Where their geoms overlap by design, an `<exclude>` is missing.
 
 Bad:
 
@@ -29,13 +29,12 @@ thickness; below 0.1 is well. They do so too in a fifth of 17 poses over the ran
 closed at 0, and the wrist of an arm that lies in its forearm at 0 alone, do it in 1 or 2. Of a left and a right finger
 that are in each other when closed, one that is nearer to the middle is told as a hint. The first or last of three links
 in a row, called alike but for a number, is put as far from the next as these are apart, where that ends the overlap. So
-is one of four and more that is out of their step, between its neighbours, however little it overlaps.
-MuJoCo's manual, Computation, Collision detection: the filter of parents.
+is one of four and more that is out of their step, between its neighbours, however little it overlaps. MuJoCo's manual,
+Computation, Collision detection: the filter of parents.
 
 When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
 elsewhere. So a body with three limbs and more that is fixed in an empty world, and that no exclude names, is left
-alone.
-A joint that starts outside of its range, which is another fault, is looked at inside.
+alone. A joint that starts outside of its range, which is another fault, is looked at inside.
 """
 
 from __future__ import annotations
@@ -87,7 +86,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     based = model.urdf and any(0 in pair for pair in deep)
     if not deep or (based and (len(roots(simulation)) > 1 or longest_row(simulation) < ARM)):
         return  # what a URDF has for a base is often carried by something else, but for that of a single arm
-    static = any(not root_of(simulation)[body] for pair in deep for body in pair)
+    owner = root_of(simulation)
+    static = any(not owner[one] and not owner[simulation.parent(other)] for one, other in deep)
     says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (
         "; the parent is fixed to the world, so that the filter of parents does not apply." if static else "."
     )

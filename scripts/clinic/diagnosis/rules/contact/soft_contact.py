@@ -1,8 +1,8 @@
 """Contacts so soft that things sink in.
 
-A contact is a damped spring: `solref` has its time constant and damping ratio, `solimp` how much of it acts. A time
-constant of 0.2 s in place of 0.02 s, or an impedance of 0.1 in place of 0.9, lets things sink in by a part of their
-size.
+A contact is a damped spring: `solref` has its time constant and damping ratio, `solimp` how much of it acts. With
+`solref="0.2 1"` on both geoms a box of 10 cm sinks in by 5 mm in place of 0.1 mm, with `solimp="0.1 0.95 0.1"` by 22
+mm.
 
 Bad:
 

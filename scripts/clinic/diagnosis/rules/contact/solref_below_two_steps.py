@@ -1,7 +1,8 @@
 """The time constant of a contact is far below two timesteps.
 
-`solref="0.0000001 1"` asks for a contact that is over within a ten-thousandth of a step. MuJoCo computes with two
-timesteps instead (its guard `refsafe`), the stiffest contact that the integrator can follow, and stacks tremble on it.
+`solref="0.0000001 1"` asks for a contact that is over within a small part of a step. MuJoCo averages it with that of a
+geom of equal `priority`, and computes with no less than two timesteps (its guard `refsafe`). Without the guard the
+model may explode.
 
 Bad:
 
@@ -22,13 +23,15 @@ Good:
 
 The number: two timesteps over the time constant; more than 10.
 
-When it is wrong: somebody wants the stiffest contact that there is, and knows that it is two timesteps.
+When it is wrong: somebody wants the stiffest contact that there is, and knows that it is two timesteps. With `refsafe`
+off, or the integrator `discrete`, nothing is told.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import IMPLICITFAST, REFSAFE_OFF
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -45,7 +48,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The colliding geoms with such a time constant, all together."""
     of = model.simulation
     short = tuple(geom for geom in range(of.count("geom")) if solid(of, geom) and _ratio(of, geom) > MOST)
-    if not short:
+    guarded = not int(of.model("opt.disableflags")[0]) & REFSAFE_OFF
+    if not short or not guarded or of.model("opt.integrator")[0] > IMPLICITFAST:  # `discrete` follows any
         return
     now = " ".join(f"{x:g}" for x in of.row("geom_solref", short[0], 2))
     says = f"Two timesteps are {2 * of.timestep:g} s, and MuJoCo computes with no less."

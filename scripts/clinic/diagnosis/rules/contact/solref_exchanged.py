@@ -2,7 +2,8 @@
 
 The first number of `solref`, `solreflimit` and `solreffriction` is a time constant in s, the second one a damping
 ratio. Exchanged, `0.01 1` becomes `1 0.01`: as stiff as before, for the stiffness takes the product of both, and with a
-hundredth of the damping. What lands on such a contact bounces, what hangs on such a limit or rope rings on.
+hundredth of the damping. What lands on such a contact bounces, what hangs on such a limit or rope rings on. Of the
+`solreffriction` of a `<pair>` only the time constant acts, with elliptic cones alone: things creep 100 times as fast.
 
 Bad:
 
@@ -68,7 +69,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             model.set_each(kind, attribute, values),
             how_many("pairs of numbers that are exchanged", _exchanged, kind, field),
             0,
-            f"A damping ratio of {row[1]:g} lets it ring for {row[0]:g} s, its time constant.",
+            f"With elliptic cones a time constant of {row[0]:g} s lets things creep."
+            if attribute == "solreffriction"
+            else f"A damping ratio of {row[1]:g} lets it ring for {row[0]:g} s, its time constant.",
             "0.02 1, MuJoCo's default",
         )
 

@@ -28,8 +28,9 @@ Good:
     +     <geom name="floor" type="plane" size="3 3 0.1" contype="0" conaffinity="0"/>
 
 The number: the share of 36 poses of a hinge, the other joints at their start, in which what hangs on it is inside of
-something that is fixed to the world, by more than a tenth of the thinner geom. Looked at are hinges without a range,
-a drive and a vertical axis, of what cannot fall, in a model of at most four joints.
+something that is fixed to the world, by more than a tenth of the thinner geom; told where it is less than 0.9, and the
+start is free. Looked at are hinges that have no range, no drive and no vertical axis, of what cannot fall, in a model
+of at most four joints.
 
 When it is wrong: a pendulum that is meant to hit something. Only intent knows whether it hangs too low: a hint.
 """
@@ -64,8 +65,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = (of.name("joint", joint), *(of.name("geom", geom) for geom in stops))
         probe = Probe("share of a turn that is blocked", "", _share, (joint,), dynamic=False)
         says = f"No range ends it, and in {100 * share:.0f} % of a turn what hangs on it is inside of {names[1]}."
-        edits = (*model.set("geom", stops, "contype", "0"), *model.set("geom", stops, "conaffinity", "0"))
-        yield Suspect(names, "contype", "1", "0", edits, probe, 0, says, "a pivot higher than the pendulum is long")
+        masks = () if falling(of) else ("contype", "conaffinity")  # which another thing stands on
+        edits = tuple(edit for mask in masks for edit in model.set("geom", stops, mask, "0"))
+        value = "0" if edits else ""
+        yield Suspect(names, "contype", "1", value, edits, probe, 0, says, "a pivot higher than the pendulum is long")
 
 
 def _pendulums(of: Simulation) -> list[int]:

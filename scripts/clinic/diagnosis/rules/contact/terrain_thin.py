@@ -23,7 +23,8 @@ Good:
     -     <hfield name="hills" nrow="4" ncol="4" size="2 2 0.05 0.001" elevation="0 1 0 1 1 0 1 0 0 1 0 1 1 0 1 0"/>
     +     <hfield name="hills" nrow="4" ncol="4" size="2 2 0.05 1" elevation="0 1 0 1 1 0 1 0 0 1 0 1 1 0 1 0"/>
 
-The number: how far a free body ends below the base of the terrain, 2 s after it was let go 4 m above its start.
+The number: how far a free body ends below the base of the terrain, 2 s after it was let go 4 m above its start, where a
+base of 1 m stops it.
 
 When it is wrong: nothing in the task is ever as fast as after a fall of 4 m, 9 m/s.
 """
@@ -54,9 +55,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     written = [each for each in source.elements("hfield") if len(each.get("size").split()) == 4]
     shallow = [each for each in written if float(each.get("size").split()[3]) < float(DEEP)]
     probe = Probe("below the terrain 2 s after a fall of 4 m", "m", _below)
-    if not shallow or model.measured(probe) <= 0:
-        return
     edits = tuple(set_attribute(each, "size", " ".join([*each.get("size").split()[:3], DEEP])) for each in shallow)
+    if not shallow or model.measured(probe) <= 0 or model.measured(probe, edits) > 0:
+        return  # what rolls off the edge falls beside any base
     now, value = shallow[0].get("size"), edits[0].value
     says = f"Its base is {shallow[0].get('size').split()[3]} m deep, and what falls from 4 m goes through it."
     names = (f'hfield "{shallow[0].get("name")}"', of.name("geom", fields[0]))

@@ -38,9 +38,10 @@ Good:
 The number: bodies that are called a wheel, caster, tyre, foot, finger, pad, jaw or claw, that have geoms and none which
 collides, nor has what hangs on them, while other parts of the same robot collide.
 
-So is a geom that stands still and is called a floor, ground, terrain, table, step, stair, ramp, wall, obstacle or
-barrier, has masks of zero, and has nothing that stands still and collides around it or in its body. One of a tray that
-moves is told, by its class too, where another geom of the body collides, and not around it.
+So is, where a body is free, a geom that is no plane, stands still and is called a floor, ground, terrain, table, step,
+stair, ramp, wall, obstacle or barrier, has masks of zero, and has nothing that stands still and collides around it or
+in its body. One of a tray that moves is told, by its class too, where another geom of the body collides, and not around
+it.
 
 And so are all fingers, pads, jaws and claws whose masks have no bit in common with those of any free body.
 

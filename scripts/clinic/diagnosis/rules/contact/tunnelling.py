@@ -1,7 +1,8 @@
 """Something fast passes through something thin.
 
-Contacts are found at the ends of steps, and are soft: a body sinks in by about its speed times the contact's time
-constant. Past the middle of a thin geom, the contact pushes it out at the other side.
+MuJoCo looks for contacts once a step, and they are soft: what hits a floor at 6 m/s sinks in by 45 mm with the default
+time constant of 0.02 s. Past the middle of a thin geom, the contact pushes it out at the other side. The flag
+`speculative` of MuJoCo 4.0 stops this block, too.
 
 Bad:
 

@@ -26,7 +26,7 @@ Good:
 
 The number: geoms whose class or name says visual, in a body that has another geom that collides, with masks that are
 not zero, those that `<replicate>` makes too; and transparent ones of the world or a mocap body that are called target,
-marker, waypoint or indicator; and those of the one of four mocap bodies and more that something can touch.
+marker, waypoint or indicator; and, of four mocap bodies and more, those of the only one that something can touch.
 
 When it is wrong: a geom that is seen and touched, and is called so for its group.
 """

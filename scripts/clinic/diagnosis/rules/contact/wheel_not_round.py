@@ -41,6 +41,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import takewhile
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, MESH, SPHERE
@@ -173,6 +174,8 @@ def _edits(model: ReaderModel, joint: int, geom: int) -> tuple[Edit, ...]:
         return ()
     if any(name not in element.attributes and model.value("geom", geom, name) for name in ORIENTATIONS):
         return ()
+    if any(each.tag in ("frame", "replicate") for each in takewhile(lambda each: each.tag != "body", element.around())):
+        return ()  # a frame, which may be turned
     gone = [remove_attribute(element, name) for name in ORIENTATIONS if name in element.attributes and name != "zaxis"]
     axis = model.simulation.row("jnt_axis", joint, 3)
     return (*gone, set_attribute(element, "zaxis", written(axis)))

@@ -31,7 +31,8 @@ Good:
     +         <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
 
 The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
-of one link that a hinge turns, where no other is so; of several where the joint is half of that outside of the box.
+of one link that a hinge turns, where no other is so; of several, where the joint is more than half a half length
+outside of the box.
 
 With `--symptom wrong-mass` every such link is told, of one that is fixed to its parent as well.
 
@@ -70,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     keen = model.symptom == FAMILIES[0]
     heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * of.moving_mass]
     heavy = [(body, each) for body, each in heavy if keen or _turns(of, body)]
-    here = [(body, each) for body, each in heavy if not any(each.centre)]
+    here = [(body, each) for body, each in heavy if not any(each.centre) and not _hung_aside(of, body)]
     found = [(body, each) for body, each in here if norm(each.solid_centre) > FAR * max(each.half)]
     if len(found) != 1 and not keen:
         found = [(body, each) for body, each in found if each.outside > OUTSIDE * max(each.half)]
@@ -80,6 +81,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         far, crowded = norm(sub(each.solid_centre, each.centre)), _crowded(of, body)
         if (body, each) not in found and crowded <= TWICE:
             continue
+        where = "in its joint" if of.joints_of(body) else "at its origin"
         probe = Probe("middle of the geoms from the centre of mass", "half lengths", _apart, (body,), dynamic=False)
         if crowded > TWICE:
             probe = Probe("spread of the mass over the room for it", "times", _crowded, (body,), dynamic=False)
@@ -91,7 +93,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             set_inertial(model, body, each.mass, each.solid_centre, each.about),
             probe,
             TWICE if crowded > TWICE else FAR,
-            f"{each.mass:.3g} kg lie in its joint, and the middle of its geoms {far:.3g} m from there.",
+            f"{each.mass:.3g} kg lie {where}, and the middle of its geoms {far:.3g} m from there.",
             "where the geoms are",
         )
 
@@ -113,6 +115,11 @@ def _crowded(of: Simulation, body: int) -> float:
     room, own = ((high - at[side]) * (at[side] - low) for at in (found.centre, found.solid_centre))
     on_axis = norm(cross(axis, off)) < ON * max(found.half)
     return spread / max(room, TINY * own) if on_axis and 0 < spread < own else 0.0
+
+
+def _hung_aside(of: Simulation, body: int) -> bool:
+    """Whether a joint of a body is not at its origin."""
+    return any(any(of.row("jnt_pos", joint, 3)) for joint in of.joints_of(body))
 
 
 def _turns(of: Simulation, body: int) -> bool:

@@ -21,7 +21,7 @@ Good:
     +       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
 
 The number: how far outside of the box around the geoms, in half lengths of that box. 0 for 95 % of 1475 bodies in
-healthy models; 0.5 for one body of five and more, else 2.5, are told. Where the other sign of one coordinate brings it
+healthy models; 0.5 for one body of five and more, else 1.5, are told. Where the other sign of one coordinate brings it
 inside, 0.1 is: so it is with 5 of 2440 bodies, four of them of one robot. Bodies of less than 1 % of the moving mass
 are left alone, and those whose geoms are written to have no mass; of these one is told that is 1.5 half lengths outside
 and with a tenth or a thousandth of its place inside.

@@ -1,7 +1,7 @@
 """A body is denser than any metal.
 
-A mass in grams, a decimal point that is missing, a mesh that is scaled and a mass that is not. What is attached to it
-cannot carry it, and what it touches is squeezed out.
+A mass in grams, a decimal point that is missing, a mesh that is scaled and a mass that is not. The servos above it
+cannot carry it, and what it touches is pressed in.
 
 Bad:
 
@@ -19,9 +19,10 @@ Good:
     -       <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="350"/>
     +       <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.35"/>
 
-The number: the body's mass over the volume of its geoms; osmium, the densest metal, has 22,600 kg/m3, and half of 1475
-bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass. A hint are
-four links and more, with inertias like those of their geoms, of which the one in the middle has 5,000: solid steel.
+The number: the body's mass over the volume of its geoms, of a mesh that of the box around it; osmium, the densest
+metal, has 22,600 kg/m3, and half of 1475 bodies in healthy models have 243 to 677. A cause has 24,000 and more than a
+twentieth of the moving mass. A hint are four links and more, with inertias like those of their geoms, of which the one
+in the middle has more than 5,000, two thirds of solid steel.
 
 When it is wrong: a body of which a small part is drawn. One that slides by itself, as a point mass does, is not told.
 """

@@ -1,6 +1,6 @@
 """A geom stands twice in its body.
 
-Copied and not changed: the body weighs twice as much, and nothing of it can be seen.
+Copied and not changed: without an `<inertial>` its mass counts twice, and nothing of it can be seen.
 
 Bad:
 
@@ -37,7 +37,7 @@ from clinic.diagnosis.probes.matter import mass_of
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.tendons import path
-from clinic.diagnosis.probes.vector import flipped, written
+from clinic.diagnosis.probes.vector import flipped, norm, numbers, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -49,7 +49,7 @@ AFLOAT = True
 MORE = 1.05
 FIELDS = {"type": 1, "size": 3, "pos": 3, "quat": 4, "dataid": 1, "contype": 1, "conaffinity": 1, "group": 1, "rgba": 4}
 SIDES = ("east", "north", "west", "south")
-MANY = 2  # so many are no slip
+MANY, SAME = 2, 1e-6  # so many are no slip; m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -89,7 +89,7 @@ def _twins(model: ReaderModel, *pair: int) -> Iterator[Suspect]:
     x, y, z = of.row("geom_pos", left, 3)
     wrong, twin = (left, right) if y < 0 else (right, left)
     value, name = written((x, -y, z)), of.name("geom", wrong)
-    edits = model.set_each("geom", "pos", {wrong: value}) if y else ()
+    edits = model.set_each("geom", "pos", {wrong: value}) if y and _as_written(model, wrong) else ()
     probe = how_many("geoms that stand twice in a body", _copies, of.body_of("geom", wrong))
     says = f"It has the place of {of.name('geom', twin)}: a left and a right one stand on two sides."
     yield Suspect(
@@ -107,10 +107,18 @@ def _walls(model: ReaderModel) -> Iterator[Suspect]:
         value = written(flipped(place, across[0][1])) if len(across) == 1 else "apart from each other"
         if len(across) == 1 and across[0][0] != pair[0]:
             names = names[::-1]
-        edits = model.set("geom", [across[0][0]], "pos", value) if len(across) == 1 else ()
+        placed = len(across) == 1 and _as_written(model, across[0][0])
+        edits = model.set("geom", [across[0][0]], "pos", value) if placed else ()
         probe = how_many("geoms of the world that stand where another one does", _standing_twice)
         says = f"{names[0]} and {names[1]} have the same place and size."
         yield Suspect(names, "pos", written(place), value, edits, probe, 0, says, "a wall on each side", level="hint")
+
+
+def _as_written(model: ReaderModel, geom: int) -> bool:
+    """Whether the place of a geom is its `pos`: not so of a `fromto`, in a frame, or of a mesh beside its origin."""
+    written_at = tuple(numbers(model.value("geom", geom, "pos") or "0 0 0"))
+    apart = norm(sub(written_at, model.simulation.row("geom_pos", geom, 3)))
+    return not model.value("geom", geom, "fromto") and apart < SAME
 
 
 def _standing_twice(of: Simulation) -> list[tuple[int, int]]:

@@ -29,11 +29,11 @@ Good:
     +       <body name="fore" pos="0.3 0 0" gravcomp="1">
 
 The number: the share of the moving mass of a mechanism on a fixed base that is not compensated; above 2 % is told. A
-hint tells of a free body that has `gravcomp` of 0.9 and more where no other has any: it floats; and of the one link of
-a free robot that has it and hangs on joints without a motor and a spring.
+hint tells of a free body that has `gravcomp` of 0.9 and more where no other has any: it floats; of the one link of a
+free robot that has it and hangs on joints without a motor and a spring; and of links without it, of less than 0.4 of
+the mass, on a free robot that floats by it otherwise.
 
-When it is wrong: an arm that is to feel what it holds. Where only the last links lack it, or half of
-the mass does, it is a hint.
+When it is wrong: an arm that is to feel what it holds.
 """
 
 from __future__ import annotations

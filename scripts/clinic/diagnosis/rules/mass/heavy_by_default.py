@@ -1,7 +1,7 @@
 """A free object weighs what water of its size weighs: nobody said its mass.
 
 Without `mass`, `density` or `<inertial>` MuJoCo fills a geom with 1000 kg/m3. A cardboard box of 30 cm then has 27 kg:
-no arm lifts it, and it pushes the robot away.
+few arms lift it, and it stops a robot that pushes it.
 
 Bad:
 

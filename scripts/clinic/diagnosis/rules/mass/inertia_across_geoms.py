@@ -20,12 +20,12 @@ Good:
     -       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0002 0.0135 0.0135"/>
     +       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
 
-The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
-its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
-Where the geoms have up to 0.5, more than 1.2 is told of a trunk, and of a body whose `diaginertia` alone lacks the
-`quat` that the others' have. What makes whole turns, as wheels do, is the other way round: where the geoms have more
-than 1.25 about their own axis, less than 0.9 is a hint; so it is where the body has the very numbers of its geoms, and
-about another axis.
+The number: the inertia about the longest axis of the geoms, where the mean of the three is 1; more than 1 is told. A
+thin rod has 0 about its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none
+has more than 0.9. Where the geoms have up to 0.5, more than 1.2 is told of a trunk, and of a body whose `diaginertia`
+alone lacks the `quat` that the others' have. What makes whole turns, as wheels do, is the other way round: where the
+geoms have more than 1.25 about their own axis, less than 0.9 is a hint; so it is where the body has the very numbers of
+its geoms, and about another axis.
 
 When it is wrong: a long cover around a flat motor; a hand, whose motor lies across it. In four of 160 models of other
 people that had another fault a hand or a finger was so: a hint.
@@ -76,7 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             (model.simulation.name("body", body),),
             "inertial",
-            "quat " + (model.value("body", body, "quat") or "left out"),
+            _quat(model, body),
             "axes of the geoms",
             _turned(model, body, found),
             across(body),
@@ -90,7 +90,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             tuple(model.simulation.name("body", body) for body in wheels),
             "inertial",
-            "quat " + (model.value("body", next(iter(wheels)), "quat") or "left out"),
+            _quat(model, next(iter(wheels))),
             "axes of the geoms",
             tuple(edit for _, edits in wheels.values() for edit in edits),
             flat(*wheels),
@@ -99,6 +99,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "a disk has 1.5, a wheel as wide as its radius 1.2",
             level="hint",
         )
+
+
+def _quat(model: ReaderModel, body: int) -> str:
+    element = inertial(model, body)
+    return "quat " + ((element.get("quat") if element is not None else "") or "left out")
 
 
 def _turn_left_out(model: ReaderModel, body: int) -> bool:

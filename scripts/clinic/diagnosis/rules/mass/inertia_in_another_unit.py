@@ -49,6 +49,7 @@ FAMILIES = ("stuck", "explodes", "wrong-mass", "oscillates")
 AFLOAT = True
 
 TENS, WITHIN, LIMIT = 2.5, 1.5, 2.5  # powers of ten; times the inertia at the joint
+FITS = 0.6  # of a power of ten: so near is it to that of a unit
 UNITS = {3: "g m2", 6: "kg mm2", 7: "g cm2", 9: "g mm2", 4: "kg cm2"}
 
 
@@ -65,6 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if 2 * sum(each.even for _, each in alike) > len(alike):  # placeholders, which have no unit
         return
     power = min((*UNITS, *(-each for each in UNITS)), key=lambda each: abs(each - middle))
+    power = power if abs(power - middle) < FITS else round(middle)
     edits = tuple(
         edit
         for body, each in alike

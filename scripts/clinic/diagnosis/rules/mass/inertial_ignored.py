@@ -1,7 +1,7 @@
-"""`<compiler inertiafromgeom="true"/>` overrules every `<inertial>` of the file.
+"""`<compiler inertiafromgeom="true"/>` overrules the `<inertial>` of every body with geoms.
 
-With `true` masses and inertias are reckoned from the geoms, and what stands in `<inertial>` is not used. `auto`, the
-default, takes the geoms where there is no `<inertial>` alone.
+With `true` their masses and inertias are reckoned from the geoms. `auto`, the default, takes the geoms only where there
+is no `<inertial>`.
 
 Bad:
 
@@ -37,7 +37,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "Every inertial element is overruled"
+TITLE = "Inertial elements are overruled"
 FAMILIES = ("wrong-mass", "sags")
 UNPLANTED = "no healthy model has the attribute and an <inertial>"
 

@@ -1,6 +1,7 @@
 """Something that moves and collides weighs less than the air in its place.
 
-A density of 1e-5, or a mass in the wrong unit: a contact throws it away, or goes through it, whatever the solver does.
+A density of 1e-5, or a mass in the wrong unit: a small force throws it away, and what is heavy goes through it. A box
+of 5 kg stands on a cylinder of 80 g, and sinks through one of 40 g to the floor.
 
 Bad:
 
@@ -22,9 +23,9 @@ Good:
 The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
 first one of 120,000. A model in centimetres has 10. More than 1, of less than 0.1 kg, under the gravity of metres and
-without a fluid, tells a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. Three
-geoms of links and more are told so from a written density of 1.6 down, one that is the number of a metal in g/cm3 (2.7,
-7.8, ...), and a free body from 15 down: of what is solid even foam has more.
+without a fluid, tells a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. So are
+three and more geoms of links with a written density below 1.6, one whose density is the number of a metal in g/cm3
+(2.7, 7.8, ...), and a free body below 15: even foam has more.
 
 A geom with a density of its own of less than air has, in a mechanism whose other geoms have a mass, is told to have
 that as its mass.

@@ -1,8 +1,8 @@
 """Geoms that are only seen have mass beside those that collide.
 
-A geom with `contype="0" conaffinity="0"` still counts into the inertia of its body, at 1000 kg/m3 where nothing else
-is written. Beside a colliding geom of the same shape the body weighs twice what it should. Geoms of the same group
-that are larger or smaller than what collides are taken for parts, not for a skin.
+A geom with `contype="0" conaffinity="0"` still counts into the inertia of its body, at 1000 kg/m3 where nothing else is
+written. Beside a colliding geom of the same shape the same matter counts twice. Geoms of the same group that are larger
+or smaller than what collides are taken for parts, not for a skin.
 
 Bad:
 
@@ -21,10 +21,10 @@ Good:
     -       <geom type="sphere" size="0.05" contype="0" conaffinity="0"/>
     +       <geom type="sphere" size="0.05" contype="0" conaffinity="0" mass="0"/>
 
-The number: the body's mass, and without that of geoms for which no mass and no density is written, or the very mass of
-a colliding geom of the same type, or of a mesh the density of those that collide in another group, as where the
-compiler's `inertiagrouprange` was lost. Half as much again tells a cause, and less than 1 % of all that the body
-belongs to a hint.
+The number: the body's mass, with and without such geoms: those for which no mass and no density is written, those with
+the very mass of a colliding geom of the same type, and meshes with the density of those that collide in another group,
+as where the compiler's `inertiagrouprange` was lost. Half as much again is a cause, or a hint where it is less than 1 %
+of the mass of the whole mechanism.
 
 When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
 """

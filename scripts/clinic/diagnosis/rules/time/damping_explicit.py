@@ -1,8 +1,9 @@
 """A joint's damping, or its servo's, is more than an explicit integrator can follow.
 
-`Euler` and `implicitfast` take a joint's damping implicitly: it may be as high as one likes. `RK4` does not, nor does
-`Euler` with `eulerdamp="disable"`; and the `kv` of a servo is implicit with `implicit`, `implicitfast` and `discrete`
-alone. A damper that stops a light wheel within one step throws it back instead, farther each time.
+All integrators but `RK4` take a joint's damping implicitly: it may be as high as one likes. `Euler` with
+`eulerdamp="disable"` does not. The `kv` of a servo is implicit with `implicit` and `implicitfast` alone, and with
+`discrete` unless the solver is PGS. A damper that stops a light wheel within one step throws it back instead, farther
+each time.
 
 Bad:
 

@@ -25,7 +25,7 @@ Good:
     +   <option timestep="0.02" integrator="RK4"/>
 
 The number: without contacts, actuators and springs, the most by which kinetic and potential energy together exceed what
-there was at the start, over the most kinetic energy, in 2 s after letting go (fewer for a large model, or a very short
+there was at the start, over the most kinetic energy, in 2 s after letting go (less for a large model, or a very short
 timestep); more than 0.08, where a quarter of the timestep brings it below half of that.
 
 When it is wrong: a start that is unstable for another reason.

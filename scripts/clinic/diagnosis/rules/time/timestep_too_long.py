@@ -1,7 +1,7 @@
 """The timestep is too long for the fastest motion of the model.
 
-An explicit integrator diverges where a spring, a contact or a gain moves something within a few steps. A model that
-is well at a shorter timestep, and explodes or rattles at its own, may have no other fault.
+An explicit integrator diverges where a spring or a gain swings something to and fro within a few steps. A model that is
+well at a shorter timestep, and explodes or rattles at its own, may have no other fault.
 
 Bad:
 
@@ -116,7 +116,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             return
     if step > UNUSUAL:
         edits = model.option("timestep", "0.002")
-        says = f"What moves at 1 m/s gets {1000 * step:.0f} mm on in a step of {step:g} s before anything can meet it."
+        says = (
+            f"At 1 m/s a thing gets on by {1000 * step:.0f} mm in a step of {step:g} s before a contact is looked for."
+        )
         probe = Probe("timestep", "s", _timestep, dynamic=False)
         healthy = "0.0001 to 0.03 s in 290 healthy models"
         elements = ("the timestep",)

@@ -1,7 +1,7 @@
-"""The timestep is so short that a second takes minutes.
+"""The timestep is so short that a second takes more than 50,000 steps.
 
-`timestep` is in seconds, and 0.002 is usual: a value that was meant in milliseconds, or has some zeros too many, makes
-the same movement take thousands of steps more, and nothing seems to move.
+`timestep` is in seconds, and 0.002 is usual. With a value in another unit, or with some zeros too many, the same
+movement takes many times as many steps, here 1000 times, and nothing seems to move.
 
 Bad:
 

@@ -1,11 +1,11 @@
 """An attribute is written, and what would read it is off or missing: it has no effect.
 
-`biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
-muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
-needs a `stiffness`, `fluidcoef` a `fluidshape` and that a `density` or a `viscosity` of the `<option>`, and the
-`friction` of a geom that decides by its `priority` a `condim` above 1; one that is written for a free body needs a
-`contype` where its class has none for it. A `forcerange` is off by `forcelimited="false"`, and a `ctrlrange` by
-`ctrllimited="false"`.
+`biasprm` needs a `biastype` such as `affine`: without it a `<general>` is a motor, its control a force. `lengthrange`
+scales the length of a muscle, and nothing else reads it; `<position>` with a `ctrlrange` holds a length. `springref`
+needs a `stiffness`. `fluidcoef` needs a `fluidshape`, and that a `density` or a `viscosity` of `<option>`. The
+`friction` of a geom that decides by its `priority` needs a `condim` above 1. On a free body none of whose geoms
+collides, a `friction` needs a `contype`. `forcelimited="false"` switches a `forcerange` off, and `ctrllimited="false"`
+a `ctrlrange`.
 
 Bad:
 
@@ -34,8 +34,7 @@ Good:
     -     <general tendon="rope" lengthrange="0.5 1"/>
     +     <position tendon="rope" ctrlrange="0.5 1" kp="100" dampratio="1"/>
 
-The number: how many elements have the attribute, with another value than MuJoCo's own, and not what it needs. MuJoCo's
-manual, XML reference, tells of each what reads it.
+The number: how many elements have the attribute, with another value than MuJoCo's own, and not what it needs.
 
 When it is wrong: a number that your own code reads, a spring or a limit that it switches on.
 """

@@ -1,7 +1,7 @@
 """An `<exclude>` forbids a contact that is needed.
 
-`<exclude>` takes two bodies out of collision detection altogether. It is meant for relatives that overlap; between a
-robot or an object and the world, it takes the floor away.
+`<exclude>` keeps two bodies from touching each other; only a `<pair>` of their geoms still does. It is meant for
+relatives that overlap. Between a robot or an object and the world, it takes the floor away.
 
 Bad:
 
@@ -24,9 +24,9 @@ Good:
     -     <exclude body1="world" body2="box"/>
     -   </contact>
 
-The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go; and how many
-excludes are between the world and one of the parts that a robot stands on, which reach as low as any other of it but
-for 2 % of its height, a limb's end for 15 %, at the start or in its first keyframe.
+The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go. And how many
+excludes are between the world and a part that a robot stands on: it reaches as low as any other part, to within 2 % of
+the robot's height, or 15 % for the end of a limb, at the start or in the first keyframe.
 
 When it is wrong: something that is meant to pass.
 """
@@ -39,7 +39,7 @@ from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
 from clinic.diagnosis.probes.key import start_at
-from clinic.diagnosis.probes.shape import boxes, falling, geoms_of_tree, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, falling, geoms_of_tree, in_pairs, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -81,7 +81,8 @@ def _feet(model: ReaderModel, written: list[Element]) -> Iterator[Suspect]:
     of = model.simulation
     if not written or not any(int(of.model("geom_type")[geom]) == PLANE for geom in of.geoms_of(0)):
         return
-    owner, lowest = root_of(of), {of.names("body")[body]: body for body in _lowest(of)}
+    paired = {of.body_of("geom", geom) for geom in in_pairs(of)}  # which touch it all the same
+    owner, lowest = root_of(of), {of.names("body")[body]: body for body in _lowest(of) - paired}
     fall = {root for root, _ in fallen(of)}
     meant = []
     for each in written:

@@ -21,8 +21,8 @@ Good:
     -   <option density="5000"/>
     +   <option density="1.2"/>
 
-The number: what the medium holds back of something that falls at the speed of a fall over its own size, as a share of
-its weight; below 0.1 is well. A little viscosity is a usual way to bring what dangles to rest.
+The number: what the medium holds back of something at the speed of a fall over half its own radius, as a share of its
+weight; below 0.1 is well. A little viscosity is a usual way to bring what dangles to rest.
 
 Where geoms have a `fluidshape`, the medium is meant, and hints tell what does not fit it: water's viscosity of 0.0009
 without a density, or with the 1 of g/cm3, or, beside the density of water, written in mPa s. What has 0.8 to 1.25 times
@@ -120,7 +120,7 @@ def _unfit(model: ReaderModel) -> Iterator[Suspect]:
     if density < THINNER and THIN[0] < viscosity < THIN[1]:
         name, now, value = "density", density, "1000"
         beside = f"with a density of {density:g} kg/m3" if density else "without a density"
-        says = f"The viscosity of {viscosity:g} Pa s is that of water, and {beside} it resists hardly."
+        says = f"The viscosity of {viscosity:g} Pa s is that of water, and {beside} it hardly resists."
     elif WATER[0] < density < WATER[1] and THICK[0] < viscosity < THICK[1]:
         name, now, value = "viscosity", viscosity, f"{viscosity / 1000:g}"
         says = f"Water has {value} Pa s: {viscosity:g} is its viscosity in mPa s."

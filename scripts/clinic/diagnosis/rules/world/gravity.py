@@ -1,4 +1,4 @@
-"""Gravity points the wrong way, or is a thousand times too large or small.
+"""Gravity points the wrong way, or is far too large or too small.
 
 MuJoCo's default is `gravity="0 0 -9.81"`: along -z, in m/s2. A sign, an axis, or millimetres turn up here.
 

@@ -1,7 +1,7 @@
 """MuJoCo's memory is full, and contacts or constraints are dropped.
 
-`<size memory=...>`, or `nconmax` and `njmax` of older models, bound how much there may be. What does not fit is
-dropped with a warning: things fall through.
+`<size memory=...>` bounds how much there may be; `njmax` and `nstack` of older models set the memory as well. What does
+not fit is dropped with a warning: things fall through.
 
 Bad:
 
@@ -62,6 +62,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         old = [name for name in ("nconmax", "njmax", "nstack") if name in each.attributes]
         edits = (set_attribute(each, "memory", "100M"), *(remove_attribute(each, name) for name in old))
         now = ", ".join(f"{name} {each.get(name)}" for name in ("memory", *old) if each.get(name))
-        says = "What does not fit is dropped."
+        says = "What does not fit is dropped; where it is the Newton solver's own, CG solves the step."
         probe = Probe("warnings that the memory is full", "", _full)
         yield Suspect(("<size>",), "memory", now, "100M", edits, probe, 0.0, says)

@@ -28,10 +28,10 @@ Good:
     -     <flag actuation="disable"/>
     -   </option>
 
-The number: how many actuators, limits, loops or pairs the model has of what is switched off. Of equality constraints
-those whose parts stand at the start as if they held, to 1 mm or mrad, and of connections and welds of two bodies
-without `relpose`, which MuJoCo takes from the start, those within one mechanism; of connections those of two chains
-that are fixed to the world as well.
+The number: how many actuators, limits, loops or pairs the model has of what is switched off. Equality constraints count
+where their parts stand at the start as if they held, to 1 mm or mrad. MuJoCo takes the place of two bodies from the
+start where no `relpose` is written: of these count those within one mechanism, and connections of two chains that are
+fixed to the world.
 
 When it is wrong: a model in which the code switches things on, or an actuator group that is chosen at run time.
 """
@@ -69,7 +69,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         off = {int(word) for word in (element.get("actuatorgroupdisable") or "").split() if word.isdecimal()}
         idle = sum(min(int(group), GROUPS) in off for group in of.model("actuator_group"))
         if idle:
-            says = f"Group {min(off)} is switched off, and with it {idle} of {of.count('actuator')} actuators."
+            found = sorted({int(group) for group in of.model("actuator_group")} & off)
+            groups = f"Group {found[0]} is" if len(found) == 1 else f"Groups {', '.join(map(str, found))} are"
+            says = f"{groups} switched off, and so {idle} of {of.count('actuator')} actuators."
             yield _suspect(element, "actuatorgroupdisable", " ".join(map(str, sorted(off))), idle, says, "left out")
     yield from _inactive(model)
 
@@ -123,7 +125,7 @@ def _flags(of: Simulation) -> dict[str, tuple[str, int, str]]:
         "frictionloss": ("enable", friction, f"is disabled: no dry friction holds a joint ({friction} of them)."),
         "filterparent": ("enable", parents, f"is disabled: links collide with what they hang on ({parents} of them)."),
         "override": ("disable", of.count("geom"), "is enabled: every contact has what `<option>` says in o_friction, "
-                     "o_solref, o_solimp and o_margin, and nothing of its geoms."),
+                     "o_solref, o_solimp and o_margin, in place of what its geoms have."),
     }  # fmt: skip
 
 

@@ -205,3 +205,11 @@ def test_a_command_for_which_a_shorter_step_leaves_no_time_is_no_proof(links: in
     monkeypatch.setattr(ReaderModel, "measured", measured)
     model = ReaderModel(NativeEngine(), text, read_source(text), Start())
     assert bool(list(rules()["timestep-too-long"].suspects(model))) is told
+
+
+@pytest.mark.parametrize("step", ["0", "-0.002"])
+def test_a_timestep_that_is_not_above_zero_is_told(step: str) -> None:
+    ball = '<body pos="0 0 1"><freejoint/><geom size="0.1"/></body>'
+    text = f'<mujoco><option timestep="{step}"/><worldbody>{ball}</worldbody></mujoco>'
+    (hint,) = hints(text, "timestep-too-short")
+    assert (hint.now, hint.value) == (step, "0.002")

@@ -21,7 +21,8 @@ Good:
     -   <option timestep="0.000002"/>
     +   <option timestep="0.002"/>
 
-The number: the steps for a second; more than 50,000. The shortest timestep of 568 healthy models is 0.0001 s: 10,000.
+The number: the steps for a second, more than 50,000; and a timestep that is not above 0, which MuJoCo takes as it is.
+The shortest timestep of 568 healthy models is 0.0001 s: 10,000 steps.
 
 When it is wrong: very stiff and very small things, such as the wing of a fly.
 """
@@ -32,7 +33,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A timestep that is too short"
 FAMILIES = ("slow", "stuck")
@@ -42,15 +43,23 @@ MANY, USUAL = 50_000, "0.002"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The timestep, where a second takes too many."""
-    of = model.simulation
-    if _steps(of) > MANY:
-        edits = model.option("timestep", USUAL)
-        probe = Probe("steps for a second", "", _steps, dynamic=False)
+    """The timestep, where a second takes too many, or none."""
+    of, written = model.simulation, f"{model.simulation.timestep:g}"
+    if _still(of):
+        probe, most = how_many("timesteps that are not above 0", _still), 0
+        says = "Time stands still, or runs backwards."
+    elif _steps(of) > MANY:
+        probe, most = Probe("steps for a second", "", _steps, dynamic=False), MANY
         says = f"One second takes {_steps(of):.3g} steps."
-        now = f"{of.timestep:g}"
-        yield Suspect(("timestep",), "timestep", now, USUAL, edits, probe, MANY, says, "500 with 0.002 s", level="hint")
+    else:
+        return
+    edits, usual = model.option("timestep", USUAL), "500 steps a second, with 0.002 s"
+    yield Suspect(("timestep",), "timestep", written, USUAL, edits, probe, most, says, usual, level="hint")
 
 
 def _steps(of: Simulation) -> float:
     return 1 / of.timestep
+
+
+def _still(of: Simulation) -> list[float]:
+    return [of.timestep] if of.timestep <= 0 else []

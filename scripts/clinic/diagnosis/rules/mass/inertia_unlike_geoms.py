@@ -23,15 +23,15 @@ Good:
 
 The number: the radius of gyration over that of the geoms, filled evenly: 0.53 to 1.7 for 90 % of 1475 bodies in healthy
 models. Suspected are bodies beyond 0.4 or 2.5 whose inertia is the same about all axes, and others beyond 0.25 or 4,
-unless more than half of the inertias are suspected. Those that change nothing, massless frames and tips, are told by the
-inertia at the joint that turns the body: it must differ 2.5 times; 1.5 times where several bodies have the same, and 5
-times where it is not equal about all axes; and 1.1 times for one that is equal about all axes and whose radius differs
-more than 6 times.
+unless more than half of the inertias are suspected. Those that change nothing, massless frames and tips, are told by
+the inertia at the joint that turns the body: it must differ 2.5 times; 1.5 times where several bodies have the same,
+and 5 times where it is not equal about all axes; and 1.1 times for one that is equal about all axes and whose radius
+differs more than 6 times.
 
 What a body has beyond its geoms is not seen where it is less than 25 ms times the damping of that joint: it was added
-to steady a finger. Always told, where it is the same about all axes, are a radius below a thirtieth, which is as good as
-a point, and none of the 289 healthy models has; and one beyond 6 of three bodies with the same inertia and more than 1 %
-of the model's mass each.
+to steady a finger. Of those that are the same about all axes two are always told: a radius below a thirtieth, which is
+as good as a point, and none of the 289 healthy models has; and one beyond 6 of three bodies with the same inertia and
+more than 1 % of the model's mass each.
 
 When it is wrong: a body whose geoms are a small part of it, such as the feet of an unseen leg.
 """

@@ -48,7 +48,9 @@ turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, 
 the 100 to 800 comparisons of a model agree. A model in which more than two, and more than 12 %, differ is not meant to
 be symmetric, and nothing is said. Of four legs or fingers that are called alike, one whose geom is unlike the three
 others by more than 25 %, or in the order of its digits (0.12 for 0.21), is told too; from 8 % on in a hint. A number of
-one twin that is ten, a hundred or a thousand times that of the other to the digit is told in any model.
+one twin that is ten, a hundred or a thousand times that of the other to the digit is told in any model. Where two sides
+without meshes are mirrored to the digit across an axis of what they hang on, so is a part that has the very place of
+its twin; and one of two bodies that lies higher or farther than its twin and all other pairs.
 
 When it is wrong: a model that is meant to have a weak side. Where few pairs agree, or the difference is small, it is a
 hint.
@@ -60,6 +62,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._decimal import decimals
+from clinic.diagnosis.rules.twins._exact import exact
 from clinic.diagnosis.rules.twins._pair import odd, suspect
 from clinic.diagnosis.rules.twins._siblings import siblings
 from clinic.diagnosis.suspect import Suspect
@@ -80,6 +83,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         made = suspect(model, found, clear)
         told |= {*made.elements}
         yield made
-    yield from (each for each in decimals(model) if not told & {*each.elements})
+    yield from (each for each in (*decimals(model), *exact(model)) if not told & {*each.elements})
     yield from siblings(model, "geom")
     yield from siblings(model, "body", ("pos",))

@@ -1,0 +1,110 @@
+"""Pairs that are mirrored to the digit across an axis of the body on which they hang: one alone tells what is wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from clinic.diagnosis.engine import MESH
+from clinic.diagnosis.probes.twins import twins
+from clinic.diagnosis.probes.vector import Vector, flipped, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+SAME, OFF = 1e-6, 1e-4  # m: of two places, and from the plane between both sides
+FEW = 2  # where there are more, the sides are not meant to be mirrored
+
+
+@dataclass(frozen=True)
+class Stray:
+    """A body or geom that is not where the mirror image of its twin is, both in the axes of what they hang on.
+
+    Attributes:
+        kind: body or geom.
+        index: The one that is wrong.
+        twin: The other one.
+        wanted: The place that the image has, in m.
+        copied: Whether it has the very place of its twin.
+    """
+
+    kind: str
+    index: int
+    twin: int
+    wanted: Vector
+    copied: bool
+
+
+def strays(of: Simulation) -> list[Stray]:
+    """What is copied to the other side and not mirrored; and the one pair whose bodies differ in one coordinate."""
+    made, apart, exact = [], [], []
+    for pair in twins(of).pairs["body"]:
+        places = [of.row("body_pos", each, 3) for each in pair]
+        if of.parent(pair[0]) != of.parent(pair[1]):
+            continue
+        across = [i for i in range(3) if abs(places[0][i] + places[1][i]) < SAME and abs(places[0][i]) > OFF]
+        along = [i for i in range(3) if abs(places[0][i] - places[1][i]) < SAME]
+        if len(across) == 1 and len(along) == 2:
+            exact.append(pair)
+            if _upright(of, *pair) and not _cast(of, pair[0]):
+                made += _copied(of, *pair, across[0], places[0][across[0]] > 0)
+        elif len(across) == len(along) == 1:
+            apart.append((pair, across[0], 3 - across[0] - along[0]))
+    if len(apart) == 1 and exact:
+        pair, axis, other = apart[0]
+        usual = [round(of.row("body_pos", each, 3)[other], 6) for one in exact for each in one]
+        wrong = [each for each in pair if round(of.row("body_pos", each, 3)[other], 6) not in usual]
+        if len(wrong) == 1:
+            twin = pair[0] + pair[1] - wrong[0]
+            made.append(Stray("body", wrong[0], twin, flipped(of.row("body_pos", twin, 3), axis), copied=False))
+    return made if len(made) <= FEW else []
+
+
+def _copied(of: Simulation, left: int, right: int, axis: int, above: bool) -> Iterator[Stray]:
+    """By pair of bodies and what hangs on them unturned: the parts that have one place on both sides."""
+    sides = (left, right)
+    for kind, both in (
+        ("geom", [list(of.geoms_of(side)) for side in sides]),
+        ("body", [of.children.get(side, []) for side in sides]),
+    ):
+        if len(both[0]) != len(both[1]):
+            continue
+        places = {part: of.row(f"{kind}_pos", part, 3) for side in both for part in side}
+        for one, other in zip(*both, strict=True):
+            image = flipped(places[one], axis)
+            alone = not any(math.dist(places[part], image) < SAME for part in both[0])
+            if math.dist(places[one], places[other]) < SAME and abs(image[axis]) > OFF and alone:
+                inward = (places[one][axis] > 0) != above
+                yield Stray(kind, *((one, other) if inward else (other, one)), image, copied=True)
+            elif kind == "body" and _upright(of, one, other):
+                yield from _copied(of, one, other, axis, above)
+
+
+def _cast(of: Simulation, side: int) -> bool:
+    """Whether meshes hang on a side, which may be mirrored themselves."""
+    return any(int(of.model("geom_type")[geom]) == MESH for body in of.below(side) for geom in of.geoms_of(body))
+
+
+def _upright(of: Simulation, *bodies: int) -> bool:
+    return all(of.row("body_quat", each, 4)[0] > 1 - SAME for each in bodies)
+
+
+def exact(model: ReaderModel) -> Iterator[Suspect]:
+    """Each part that is not where its twin's image is, with that place."""
+    of = model.simulation
+    for each in strays(of):
+        names = of.name(each.kind, each.index), of.name(each.kind, each.twin)
+        now, value = written(of.row(f"{each.kind}_pos", each.index, 3)), written(each.wanted)
+        says = f"It has the place of {names[1]} on the other side, and goes inwards where that goes outwards."
+        if not each.copied:
+            says = f"It is not at the mirror image of its twin, {names[1]}, and other pairs are."
+        probe = Probe("distance from the twin's mirror image", "m", _off, (each.kind, each.index), dynamic=False)
+        ends = model.value(each.kind, each.index, "fromto")
+        edits = () if ends else model.set(each.kind, [each.index], "pos", value)
+        yield Suspect(names, "pos", now, value, edits, probe, OFF, says, "at the mirror image", level="hint")
+
+
+def _off(of: Simulation, kind: str, index: int) -> float:
+    found = [each for each in strays(of) if (each.kind, each.index) == (kind, index)]
+    return math.dist(of.row(f"{kind}_pos", index, 3), found[0].wanted) if found else 0.0

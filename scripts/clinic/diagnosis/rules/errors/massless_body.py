@@ -36,12 +36,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, delete, insert, remove_attribute, replace, set_attribute
+from clinic.diagnosis.probes.inertia import possible
 from clinic.diagnosis.probes.vector import numbers, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._ball import mass_of_a_ball, mass_of_its_shape
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.rules.errors._scale import scaled_back
-from clinic.diagnosis.rules.errors.invalid_inertia import possible
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 

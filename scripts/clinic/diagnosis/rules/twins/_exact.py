@@ -38,7 +38,8 @@ class Stray:
 
 def strays(of: Simulation) -> list[Stray]:
     """What is copied to the other side and not mirrored; and the one pair whose bodies differ in one coordinate."""
-    made, apart, exact = [], [], []
+    made: list[Stray] = []
+    apart, exact = [], []
     for pair in twins(of).pairs["body"]:
         places = [of.row("body_pos", each, 3) for each in pair]
         if of.parent(pair[0]) != of.parent(pair[1]):

@@ -98,7 +98,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("share of the speed that is missing", "", _missing)
     for attribute, now, value, edits in (
         ("damping", damping, text := rounded(wheels[0].gain / MORE), model.set("joint", joints, "damping", text)),
-        ("kv", wheels[0].gain, text := rounded(MORE * wheels[0].gain), model.set("actuator", actuators, "kv", text)),
+        *(
+            ("kv", wheels[0].gain, text := rounded(more * wheels[0].gain), model.set("actuator", actuators, "kv", text))
+            for more in (MORE, MORE**2)
+        ),
         ("forcerange", most, text := rounded(MORE * most), _forces(model, actuators, text) if limited else ()),
     ):
         helps = edits and (damping > wheels[0].gain if attribute == "damping" else not _ample(of, wheels))

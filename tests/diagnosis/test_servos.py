@@ -326,3 +326,12 @@ def test_a_servo_of_a_negative_gain_is_said_to_hold_the_other_side() -> None:
     text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{servo}</actuator></mujoco>"
     (found,) = findings(text, "target-not-held")
     assert found.says.endswith("holds the joint at minus its control.")
+
+
+@pytest.mark.parametrize(("kv", "told"), [("0", ['actuator "winch"']), ("100", [])])
+def test_a_servo_of_a_tendon_that_swings_on_is_told(kv: str, told: list[str]) -> None:
+    load = '<body pos="0 0 1"><joint type="slide" axis="0 0 1"/><geom size="0.05" mass="2"/><site name="hook"/></body>'
+    text = f"""<mujoco><worldbody><site name="top" pos="0 0 2"/>{load}</worldbody>
+    <tendon><spatial name="rope"><site site="top"/><site site="hook"/></spatial></tendon>
+    <actuator><position name="winch" tendon="rope" kp="2000" kv="{kv}"/></actuator></mujoco>"""
+    assert [each.elements[0] for each in hints(text, "undamped-servo")] == told

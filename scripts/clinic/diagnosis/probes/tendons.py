@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 from clinic.diagnosis.engine import TRN_TENDON, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import COUPLED
-from clinic.diagnosis.probes.servo import affine
+from clinic.diagnosis.probes.servo import affine, alone, hold
 from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import probe
 
 WRAPS = {1: "joint", 3: "site", 4: "geom", 5: "geom"}  # mjtWrap: joint, site, sphere, cylinder
 POSES, GOLDEN = 64, 0.6180339887
+STEP, SECONDS, TURNS = 0.01, 3.0, 4  # of the tendon's length; s; in the second half
 
 
 def joints_of(of: Simulation, tendon: int) -> list[tuple[int, float]]:
@@ -84,3 +89,32 @@ def targets(of: Simulation, actuator: int) -> tuple[float, float] | None:
         return None
     ends = [line[0] + line[1] * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
     return min(ends), max(ends)
+
+
+def winches(of: Simulation) -> list[int]:
+    """The actuators that pull a tendon to a length."""
+    return [each for each in pulled(of) if affine(of, each) and of.gain(each)[0] and of.bias(each)[1] < 0]
+
+
+@probe("what still swings 1.5 s after a step of 1 % of a tendon's length, as a share of the step")
+def swings_on(of: Simulation, actuators: Sequence[int]) -> float:
+    """How much the servos of tendons ring, while the others hold theirs; 0 where all soon come to rest."""
+    return max((_swings(of, each) for each in actuators), default=0.0)
+
+
+@kept
+def _swings(of: Simulation, actuator: int) -> float:
+    with alone(of, gravity=True):
+        of.begin()
+        hold(of)
+        begun = list(of.data("actuator_length"))
+        for each in winches(of):
+            goal = begun[each] + STEP * abs(begun[each]) * (each == actuator)
+            of.engine.write("ctrl", [(-of.bias(each)[1] * goal - of.bias(each)[0]) / of.gain(each)[0]], each)
+        seen = [of.data("actuator_length")[actuator] for _ in of.run(SECONDS, samples=600)]
+    late = seen[len(seen) // 2 :]
+    ways = [after - before for before, after in pairwise(late)]
+    turns = sum(before * after < 0 for before, after in pairwise(ways))
+    if of.unstable() or turns < TURNS or not begun[actuator]:
+        return 0.0
+    return (max(late) - min(late)) / 2 / (STEP * abs(begun[actuator]))

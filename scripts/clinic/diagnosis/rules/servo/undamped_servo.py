@@ -29,7 +29,9 @@ is left alone.
 
 Legs of healthy robots go down to 0.1. Servos whose twins have the same gains and more of it are a hint: what they move
 is unlike. Where a model rattles from step to step too, and a tenth or a hundredth of `kp` mends both, that is told.
-With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of more than 12 % are told too, as a hint.
+A hint tells of servos of tendons that, stepped by 1 % of the length while the others hold theirs, still swing by a
+quarter of the step after 1.5 s. With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of more than
+12 % are told too, as a hint.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """
@@ -43,6 +45,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.servo import COEFFICIENTS, STEP, Servo, overshoot, servos
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.sides import sided
+from clinic.diagnosis.probes.tendons import swings_on, winches
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -52,11 +55,41 @@ CASE = "servo-oscillates"
 
 WELL = "a damping ratio of 0.7 to 1 (MuJoCo's manual, dampratio)"
 RATIO, OVERSHOOT, UNLIKE = 0.08, 0.22, 1.5
+SWINGS, KV = 0.25, (0.02, 0.05, 0.1, 0.2)  # of the step; kv over kp in s
 KEEN_RATIO, KEEN_OVERSHOOT = 0.5, 0.12  # where the reader sees something oscillate
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Servos with a low damping ratio that ring, all together."""
+    """Servos with a low damping ratio that ring, all together; and those of tendons."""
+    yield from _of_joints(model)
+    yield from _of_tendons(model)
+
+
+def _of_tendons(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that pull tendons and go on swinging, with the least kv that ends it."""
+    of = model.simulation
+    found = [each for each in winches(of) if model.measured(swings_on([each])) > SWINGS]
+    for share in KV if found else ():
+        values = {each: share * -of.bias(each)[1] for each in found}
+        edits = tuple(edit for each, kv in values.items() for edit in _with_kv(model, each, kv))
+        if edits and model.measured(swings_on(found), edits) <= SWINGS:
+            says = f"A step of 1 % of its tendon's length still swings after 1.5 s: kp {-of.bias(found[0])[1]:g}, "
+            says += f"and kv {abs(of.bias(found[0])[2]):g}."
+            names, now, value = tuple(of.name("actuator", each) for each in found), "0", f"{values[found[0]]:.3g}"
+            probe = swings_on(found)
+            yield Suspect(names, "kv", now, value, edits, probe, SWINGS, says, WELL, level="hint")
+            return
+
+
+def _with_kv(model: ReaderModel, actuator: int, kv: float) -> tuple[Edit, ...]:
+    """The edit that gives a servo a kv, in the way in which it is written."""
+    written, bias = model.element("actuator", actuator), model.simulation.bias(actuator)
+    if written is not None and written.tag == "general":
+        return model.set("actuator", [actuator], "biasprm", f"{bias[0]:g} {bias[1]:g} {-kv:.3g}")
+    return model.set("actuator", [actuator], "kv", f"{kv:.3g}")
+
+
+def _of_joints(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     found, most = _ringing(model, RATIO, OVERSHOOT), OVERSHOOT
     keen = not found and model.symptom == FAMILIES[0]
@@ -138,9 +171,6 @@ def _damped(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
         return model.set("joint", [servo.joint], "damping", f"{value:.3g}") if joint is not None else ()
     gear = model.simulation.gear(servo.actuator)
     value = 2 * math.sqrt(servo.stiffness * servo.inertia) / gear**2
-    if written.tag == "general":
-        bias = model.simulation.bias(servo.actuator)
-        return model.set("actuator", kinds, "biasprm", f"{bias[0]:g} {bias[1]:g} {-value:.3g}")
-    if model.value("actuator", servo.actuator, "kv") is not None:
-        return model.set("actuator", kinds, "kv", f"{value:.3g}")
+    if written.tag == "general" or model.value("actuator", servo.actuator, "kv") is not None:
+        return _with_kv(model, servo.actuator, value)
     return model.set("actuator", kinds, "dampratio", "1")

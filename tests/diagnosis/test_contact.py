@@ -206,6 +206,22 @@ def test_gravity_that_points_the_wrong_way_keeps_the_size_that_it_has_on_another
     assert (found.attribute, found.value) == ("gravity", value)
 
 
+SLAB = '<geom type="box" size="5 0.01 5"/>'
+CRANK = (
+    '<body pos="0 1 0"><joint axis="{}" damping="0.1"/><geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02"/></body>'
+)
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [(SLAB + CRANK.format("1 0 0"), False), (CRANK.format("0 0 1"), False), (CRANK.format("1 0 0"), True)],
+    ids=["a slab across it", "all hinges about z", "neither"],
+)
+def test_gravity_along_y_is_right_in_a_scene_that_is_drawn_so(scene, told):
+    text = f'<mujoco><option gravity="0 -9.81 0"/><worldbody>{scene}</worldbody></mujoco>'
+    assert [each.attribute for each in causes(text, "gravity")] == ["gravity"] * told
+
+
 @pytest.mark.parametrize(
     ("geom", "told"),
     [

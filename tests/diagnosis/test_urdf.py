@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from clinic.diagnosis.rules import rules
 from diagnosed import causes, diagnosed, hints, with_edits
 
 ROVER = """
@@ -118,6 +119,23 @@ def test_wheels_that_are_all_fixed_and_have_an_axis_are_told(others: str, told: 
     kinds = [("left", "fixed"), ("right", "fixed"), ("rear", others)]
     text = f'<robot name="r"><link name="base"/>{"".join(wheel.format(*kind, inertial) for kind in kinds)}</robot>'
     assert [len(each.elements) for each in hints(text, "urdf-fixed-with-range")] == [3] * told
+
+
+@pytest.mark.parametrize(("second", "told"), [('<axis xyz="0 1 0"/>', ["fork", "roll"]), ("", [])])
+def test_a_caster_whose_fork_and_wheel_are_fixed_and_have_axes_is_told(second: str, told: list[str]) -> None:
+    joint = '<joint name="caster_{0}" type="fixed"><parent link="{1}"/><child link="{0}"/>{2}</joint>'
+    joints = joint.format("fork", "base", '<axis xyz="0 0 1"/>') + joint.format("roll", "fork", second)
+    drive = '<joint name="drive" type="continuous"><parent link="base"/><child link="tyre"/><axis xyz="0 1 0"/></joint>'
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    links = "".join(f'<link name="{name}">{inertial}</link>' for name in ("fork", "roll", "tyre"))
+    found = hints(f'<robot name="r"><link name="base"/>{links}{joints}{drive}</robot>', "urdf-fixed-with-range")
+    assert [each.elements for each in found] == [tuple(f'joint "caster_{name}"' for name in told)] * bool(told)
+
+
+def test_efforts_that_are_all_zero_are_told_with_a_symptom_alone() -> None:
+    text = rules()["effort-zero"].example("Bad").replace('effort="20"', 'effort="0"')
+    assert not hints(text, "effort-zero")
+    assert [len(each.elements) for each in hints(text, "effort-zero", symptom="stuck")] == [2]
 
 
 @pytest.mark.parametrize(("ends", "told"), [('lower="0" upper="0"', True), ("", False)])

@@ -48,7 +48,7 @@ def strays(of: Simulation) -> list[Stray]:
         along = [i for i in range(3) if abs(places[0][i] - places[1][i]) < SAME]
         if len(across) == 1 and len(along) == 2:
             exact.append(pair)
-            if _upright(of, *pair) and not _cast(of, pair[0]):
+            if _unturned(of, "body", *pair) and not _cast(of, pair[0]):
                 made += _copied(of, *pair, across[0], places[0][across[0]] > 0)
         elif len(across) == len(along) == 1:
             apart.append((pair, across[0], 3 - across[0] - along[0]))
@@ -75,10 +75,11 @@ def _copied(of: Simulation, left: int, right: int, axis: int, above: bool) -> It
         for one, other in zip(*both, strict=True):
             image = flipped(places[one], axis)
             alone = not any(math.dist(places[part], image) < SAME for part in both[0])
-            if math.dist(places[one], places[other]) < SAME and abs(image[axis]) > OFF and alone:
+            copy = math.dist(places[one], places[other]) < SAME and abs(image[axis]) > OFF
+            if copy and alone and _unturned(of, kind, one, other):
                 inward = (places[one][axis] > 0) != above
                 yield Stray(kind, *((one, other) if inward else (other, one)), image, copied=True)
-            elif kind == "body" and _upright(of, one, other):
+            elif kind == "body" and _unturned(of, kind, one, other):
                 yield from _copied(of, one, other, axis, above)
 
 
@@ -87,8 +88,10 @@ def _cast(of: Simulation, side: int) -> bool:
     return any(int(of.model("geom_type")[geom]) == MESH for body in of.below(side) for geom in of.geoms_of(body))
 
 
-def _upright(of: Simulation, *bodies: int) -> bool:
-    return all(of.row("body_quat", each, 4)[0] > 1 - SAME for each in bodies)
+def _unturned(of: Simulation, kind: str, one: int, other: int) -> bool:
+    """Whether two parts are turned alike against what they hang on, bodies not at all."""
+    turns = [of.row(f"{kind}_quat", each, 4) for each in (one, other)]
+    return math.dist(*turns) < SAME and (kind == "geom" or turns[0][0] > 1 - SAME)
 
 
 def exact(model: ReaderModel) -> Iterator[Suspect]:

@@ -83,6 +83,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         made = suspect(model, found, clear)
         told |= {*made.elements}
         yield made
-    yield from (each for each in (*decimals(model), *exact(model)) if not told & {*each.elements})
-    yield from siblings(model, "geom")
-    yield from siblings(model, "body", ("pos",))
+    of_four = [*siblings(model, "geom"), *siblings(model, "body", ("pos",))]
+    yield from (each for each in decimals(model) if not told & {*each.elements})
+    yield from of_four
+    told |= {name for each in of_four for name in each.elements}
+    yield from (each for each in exact(model) if not told & {*each.elements})

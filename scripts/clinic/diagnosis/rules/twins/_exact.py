@@ -14,7 +14,6 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 SAME, OFF = 1e-6, 1e-4  # m: of two places, and from the plane between both sides
-FEW = 2  # where there are more, the sides are not meant to be mirrored
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class Stray:
 
 
 def strays(of: Simulation) -> list[Stray]:
-    """What is copied to the other side and not mirrored; and the one pair whose bodies differ in one coordinate."""
+    """The one part that is copied to the other side and not mirrored, or the one body that differs in one coordinate."""
     made: list[Stray] = []
     apart, exact = [], []
     for pair in twins(of).pairs["body"]:
@@ -59,7 +58,7 @@ def strays(of: Simulation) -> list[Stray]:
         if len(wrong) == 1:
             twin = pair[0] + pair[1] - wrong[0]
             made.append(Stray("body", wrong[0], twin, flipped(of.row("body_pos", twin, 3), axis), copied=False))
-    return made if len(made) <= FEW else []
+    return made if len(made) == 1 else []  # with more the sides are not meant to be mirrored
 
 
 def _copied(of: Simulation, left: int, right: int, axis: int, above: bool) -> Iterator[Stray]:

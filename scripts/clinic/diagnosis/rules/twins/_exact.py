@@ -35,8 +35,8 @@ class Stray:
     copied: bool
 
 
-def strays(of: Simulation) -> list[Stray]:
-    """The one part that is copied to the other side and not mirrored, or the one body that differs in one coordinate."""
+def stray(of: Simulation) -> Stray | None:
+    """The one part that is copied to the other side, or the one body that differs from its twin in one coordinate."""
     made: list[Stray] = []
     apart, exact = [], []
     for pair in twins(of).pairs["body"]:
@@ -58,7 +58,7 @@ def strays(of: Simulation) -> list[Stray]:
         if len(wrong) == 1:
             twin = pair[0] + pair[1] - wrong[0]
             made.append(Stray("body", wrong[0], twin, flipped(of.row("body_pos", twin, 3), axis), copied=False))
-    return made if len(made) == 1 else []  # with more the sides are not meant to be mirrored
+    return made[0] if len(made) == 1 else None  # with more the sides are not meant to be mirrored
 
 
 def _copied(of: Simulation, left: int, right: int, axis: int, above: bool) -> Iterator[Stray]:
@@ -94,20 +94,22 @@ def _unturned(of: Simulation, kind: str, one: int, other: int) -> bool:
 
 
 def exact(model: ReaderModel) -> Iterator[Suspect]:
-    """Each part that is not where its twin's image is, with that place."""
+    """The part that is not where its twin's image is, with that place."""
     of = model.simulation
-    for each in strays(of):
-        names = of.name(each.kind, each.index), of.name(each.kind, each.twin)
-        now, value = written(of.row(f"{each.kind}_pos", each.index, 3)), written(each.wanted)
-        says = f"It has the place of {names[1]} on the other side, and goes inwards where that goes outwards."
-        if not each.copied:
-            says = f"It is not at the mirror image of its twin, {names[1]}, and other pairs are."
-        probe = Probe("distance from the twin's mirror image", "m", _off, (each.kind, each.index), dynamic=False)
-        ends = model.value(each.kind, each.index, "fromto")
-        edits = () if ends else model.set(each.kind, [each.index], "pos", value)
-        yield Suspect(names, "pos", now, value, edits, probe, OFF, says, "at the mirror image", level="hint")
+    if (found := stray(of)) is None:
+        return
+    names = of.name(found.kind, found.index), of.name(found.kind, found.twin)
+    now, value = written(of.row(f"{found.kind}_pos", found.index, 3)), written(found.wanted)
+    says = f"It has the place of {names[1]} on the other side, and goes inwards where that goes outwards."
+    if not found.copied:
+        says = f"It is not at the mirror image of its twin, {names[1]}, and other pairs are."
+    edits = model.set(found.kind, [found.index], "pos", value)
+    if model.value(found.kind, found.index, "fromto"):
+        edits = ()
+    probe = Probe("distance from the twin's mirror image", "m", _off, dynamic=False)
+    yield Suspect(names, "pos", now, value, edits, probe, OFF, says, "at the mirror image", level="hint")
 
 
-def _off(of: Simulation, kind: str, index: int) -> float:
-    found = [each for each in strays(of) if (each.kind, each.index) == (kind, index)]
-    return math.dist(of.row(f"{kind}_pos", index, 3), found[0].wanted) if found else 0.0
+def _off(of: Simulation) -> float:
+    found = stray(of)
+    return math.dist(of.row(f"{found.kind}_pos", found.index, 3), found.wanted) if found else 0.0

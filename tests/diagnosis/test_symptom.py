@@ -95,7 +95,7 @@ def test_the_reader_is_told_what_the_symptoms_page_measures(root):
     assert made.data()["measured"]["family"] == "sags"
     *_, head, _, row, told = made.text().splitlines()
     assert head == "sags, measured in this model as on the symptom's page:"
-    assert row == "   servo-sags = 4.905, actuator servo"
+    assert row == "   servo-sags = 4.905 rad, actuator servo"
     assert told.startswith("   it is servo-sags: ")
 
 

@@ -48,7 +48,7 @@ def test_it_takes_a_path_and_names_the_element(clinic: list[Case]) -> None:
     (case,) = [case for case in clinic if case.slug == "elbow-will-not-bend"]
     code = procedure("stuck", [case]).replace("sys.argv[1]", "'model.xml'")
     assert run_script(code, {"model.xml": case.text}).splitlines() == [
-        "elbow-will-not-bend = 0.04363, joint elbow",
+        "elbow-will-not-bend = 0.04363 rad, joint elbow",
         "it is elbow-will-not-bend: a range in radians is read in degrees",
     ]
     well = variants(case)[1].text

@@ -14,7 +14,7 @@ SEEN = {
     "ranges": (arm('range="0 3"'), "joint elbow", "range 0 to 0.0524"),
     "ranges wide": (arm('range="-2000 2000"'), "joint elbow", "range −34.9 to 34.9"),
     "unused_ranges": (arm('range="90 -90"'), "joint elbow", "given and not in force"),
-    "start_outside": (arm('range="30 90"'), "joint elbow", "starts at 0"),
+    "start_outside": (arm('range="30 90"'), "joint elbow", "starts at 0, outside its range 0.524 to 1.57\u00a0rad"),
     "start_outside ctrl": (arm(servo='ctrlrange="1 2" kp="9"'), "actuator servo", "clamped to 1 to 2"),
     "gains": (arm(servo='kp="0"'), "actuator servo", "gain 0"),
     "gains gear": (arm(servo='kp="5" gear="0"'), "actuator servo", "gear 0"),

@@ -23,7 +23,7 @@ SEEN = {
     "leaps": (
         f'<mujoco><option timestep=".02"/><worldbody>{FLOOR}{BALL_AT.format(3, 0.01)}',
         "geom b",
-        "in a step; geom floor is thinner",
+        "in a step; half of it and of geom floor are 13.0\u00a0mm thick",
     ),
     "ghosts": (MODEL.replace("0 0 0.06", "0 0 0.3"), "geom floor and geom box", "without a contact"),
 }

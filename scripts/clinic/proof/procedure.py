@@ -31,17 +31,18 @@ mujoco.mj_forward(model, data)
 '''
 MEASUREMENT = """\
 {probe}
-rows = [  # the case, its cause, what is measured, of what, the sign of its bound, the bound
+rows = [  # the case, its cause, what is measured, its unit, of what, the sign of its bound, the bound
 {rows}
 ]
 told = []
-for case, cause, values, kind, sign, bound in rows:
+for case, cause, values, unit, kind, sign, bound in rows:
     values = sign * np.atleast_1d(values).astype(float)
     if np.isnan(values).all():
         continue
     k = np.nanargmax(values)
     element = model.joint(model.dof_jntid[k]) if kind == "dof" else getattr(model, kind)(k) if kind else None
-    print(f"{{case}} = {{sign * values[k]:.4g}}, {{kind}} {{element.name if element else ''}}".rstrip(", "))
+    print(f"{{case}} = {{sign * values[k] + 0:.4g}} {{unit}}".rstrip() \
++ (f", {{kind}} {{element.name}}" if element else ""))
     told += [f"it is {{case}}: {{cause}}"] * bool(values[k] > sign * bound)
 print(*told or ["it is none of these: {none}"], sep=", and ")
 """
@@ -113,7 +114,7 @@ def measurement(family: str, cases: Iterable[Case]) -> str:
         assert telling is not None
         sign, bound = (1, telling.above) if telling.above is not None else (-1, telling.below)
         name, kind = json.dumps(telling.cause or case.record.title, ensure_ascii=False), telling.of or ""
-        rows.append(f'    ("{case.slug}", {name}, {telling.expr}, "{kind}", {sign}, {bound}),')
+        rows.append(f'    ("{case.slug}", {name}, {telling.expr}, "{telling.unit}", "{kind}", {sign}, {bound}),')
     probes = dict.fromkeys(
         families()[each].probe.strip() for each in (family, *(case.record.family or family for case in own))
     )

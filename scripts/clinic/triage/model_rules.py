@@ -49,7 +49,8 @@ def start_outside(s: Subject) -> Seen:
     for i in range(m.njnt):
         value = d.qpos[m.jnt_qposadr[i]]
         if m.jnt_limited[i] and m.jnt_type[i] in (HINGE, SLIDE) and _outside(value, m.jnt_range[i]):
-            yield s.called("joint", i), f"starts at {format_number(value)}, outside its range {_pair(m.jnt_range[i])}"
+            limits = _pair(m.jnt_range[i], "rad" if m.jnt_type[i] == HINGE else "m")
+            yield s.called("joint", i), f"starts at {format_number(value)}, outside its range {limits}"
     for i in range(m.nu):
         control, limits = control_of(m, i), m.actuator_ctrlrange[i]
         if m.actuator_ctrllimited[i] and control is not None and _outside(d.ctrl[control], limits):
@@ -100,7 +101,7 @@ def undamped(s: Subject) -> Seen:
 
 
 def masses(s: Subject) -> Seen:
-    """A moving body is 10,000 times lighter than the heaviest, or weighs over 10 t."""
+    """A moving body is more than 10,000 times lighter than the heaviest, or weighs over 10 t."""
     m = s.model
     moving = [int(b) for b in np.flatnonzero(m.body_treeid >= 0)]
     heaviest = max((m.body_mass[b] for b in moving), default=0.0)
@@ -134,7 +135,9 @@ def switches(s: Subject) -> Seen:
 
 
 def time_steps(s: Subject) -> Seen:
-    """The timestep is not positive, or above 80 % of the longest that springs and servos allow, 2/omega_max."""
+    """The timestep is not positive, or above 80 % of the longest that springs and servos allow: 2/omega_max, or
+    2.83/omega_max under RK4.
+    """
     h, name = s.model.opt.timestep, mujoco.mjtIntegrator(s.model.opt.integrator).name
     if h <= 0:
         yield "option", f"timestep {format_number(h, 's')}: time does not go on"
@@ -177,8 +180,8 @@ def priorities(s: Subject) -> Seen:
 
 
 def quaternions(s: Subject) -> Seen:
-    """A quaternion in the file is not of unit length (0 and ±1 aside), or a body placed in the world has a half turn
-    about a slanted axis that would be a turn about z with w written last.
+    """A quaternion in the file has a length other than 1 by more than 0.01 (those of 0 and ±1 alone aside), or a body
+    placed in the world has a half turn about a slanted axis that would be a turn about z with w written last.
     """
     world = {element.name for element in [*s.spec.worldbody.bodies, *s.spec.worldbody.geoms] if element.name}
     for kind, elements in (("body", s.spec.bodies[1:]), ("geom", s.spec.geoms), ("site", s.spec.sites)):
@@ -252,5 +255,5 @@ def _outside(value: float, limits: Array) -> bool:
     return not limits[0] - slack <= value <= limits[1] + slack
 
 
-def _pair(limits: Array) -> str:
-    return f"{format_number(limits[0])} to {format_number(limits[1])}"
+def _pair(limits: Array, unit: str = "") -> str:
+    return f"{format_number(limits[0])} to {format_number(limits[1], unit)}"

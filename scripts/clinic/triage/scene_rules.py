@@ -41,8 +41,9 @@ def leaps(s: Subject) -> Seen:
     thinnest = min(fixed, key=lambda i: fixed[i], default=-1)
     for i in colliding:
         if fixed and i not in fixed and farthest[i] > fixed[thinnest] + _half_size(m, i):
-            way = format_number(1e3 * farthest[i], "mm")
-            yield s.called("geom", i), f"goes {way} in a step; {s.called('geom', thinnest)} is thinner"
+            way, halves = (format_number(1e3 * far, "mm") for far in (farthest[i], fixed[thinnest] + _half_size(m, i)))
+            thin = f"half of it and of {s.called('geom', thinnest)} are {halves} thick"
+            yield s.called("geom", i), f"goes {way} in a step; {thin}"
 
 
 def ghosts(s: Subject) -> Seen:

@@ -86,7 +86,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         worst, load, most = weak[0], loads(simulation), min(_most(simulation, each) for each in weak)
         for good in GOOD[hinge]:  # what holds still may be too stiff for the timestep
-            edits = _stronger(model, {each: load[each.dof] / good for each in weak})
+            edits = _stronger(model, {each: float(rounded(load[each.dof] / good)) for each in weak})
             if model.measured(resets(), edits) <= model.measured(resets()):
                 break
         yield Suspect(

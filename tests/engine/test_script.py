@@ -126,3 +126,10 @@ def test_without_node_a_script_in_javascript_says_so(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(node, "executable", lambda: None)
     with pytest.raises(ScriptError, match="no Node on this machine"):
         run_script("", {}, name="script.mjs")
+
+
+def test_a_script_that_takes_too_much_memory_is_told_how_much_it_may():
+    with pytest.raises(
+        ScriptError, match=r"MemoryError \(line 1 of script.py\); a script may take 2,048 MiB of memory"
+    ):
+        run_script("x = bytearray(3 * 2**30)\n", {})

@@ -28,7 +28,8 @@ from typing import Any
 
 SECONDS = 20.0  # on the clock
 MIB = 2**20
-LIMITS = {resource.RLIMIT_DATA: 2048 * MIB, resource.RLIMIT_FSIZE: 64 * MIB, resource.RLIMIT_CORE: 0}
+MEMORY = 2048 * MIB
+LIMITS = {resource.RLIMIT_DATA: MEMORY, resource.RLIMIT_FSIZE: 64 * MIB, resource.RLIMIT_CORE: 0}
 SEEN = re.compile("PATH|LANG|LD_LIBRARY_PATH|MUJOCO_GL|PYOPENGL_|LIBGL_|EGL_|__EGL_|__GLX_|MESA_|GALLIUM_")
 FORKS = sys.platform == "linux"  # elsewhere a fork may not use what MuJoCo's import has loaded
 QUIET = "ignore:This process:DeprecationWarning"  # Python warns of forks beside threads; those of NumPy bear it

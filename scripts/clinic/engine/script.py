@@ -14,6 +14,7 @@ from clinic.engine import node, sandbox
 from clinic.engine.checks import Trace
 
 OUTPUT = 256_000  # characters, of stdout and of stderr
+NO_ROOM = re.compile("MemoryError|[Cc]ould not allocate|Unable to allocate|out of memory")
 BY_HAND = "run it by hand and mend it"
 PRINTED = re.compile(
     r"^\s*(?P<name>[a-z](?:[a-z0-9 _,()-]*[a-z0-9_,()-])?)\s*="
@@ -72,6 +73,8 @@ def run_script(code: str, files: Mapping[str, str], name: str = "script.py", sec
     if done.returncode:
         message, line = (node.failure if javascript else _failure)(done.stderr, name)
         at = f" (line {line} of {name})" if line else ""
+        if NO_ROOM.search(message or ""):
+            raise ScriptError(f"{message}{at}", f"a script may take {sandbox.MEMORY // sandbox.MIB:,} MiB of memory")
         raise ScriptError((message or f"exit code {done.returncode}") + at, BY_HAND)
     return done.stdout
 

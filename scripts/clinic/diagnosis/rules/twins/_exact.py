@@ -14,6 +14,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 SAME, OFF = 1e-6, 1e-4  # m: of two places, and from the plane between both sides
+BESIDE = 0.5  # of the geom's radius
 
 
 @dataclass(frozen=True)
@@ -62,19 +63,20 @@ def stray(of: Simulation) -> Stray | None:
 
 
 def _copied(of: Simulation, left: int, right: int, axis: int, above: bool) -> Iterator[Stray]:
-    """By pair of bodies and what hangs on them unturned: the parts that have one place on both sides."""
-    sides = (left, right)
-    for kind, both in (
-        ("geom", [list(of.geoms_of(side)) for side in sides]),
-        ("body", [of.children.get(side, []) for side in sides]),
-    ):
-        if len(both[0]) != len(both[1]):
+    """By pair of bodies and what hangs on them unturned: the parts that have one place on both sides.
+
+    A geom counts where it is beside its joint, and nothing else hangs on the body: else one part may be built in twice.
+    """
+    sides, below = (left, right), [of.children.get(side, []) for side in (left, right)]
+    for kind, both in (("body", below), ("geom", [list(of.geoms_of(side)) for side in sides] if not below[0] else [])):
+        if len({*map(len, both)}) != 1:
             continue
         places = {part: of.row(f"{kind}_pos", part, 3) for side in both for part in side}
         for one, other in zip(*both, strict=True):
             image = flipped(places[one], axis)
             alone = not any(math.dist(places[part], image) < SAME for part in both[0])
-            copy = math.dist(places[one], places[other]) < SAME and abs(image[axis]) > OFF
+            least = BESIDE * of.model("geom_rbound")[one] if kind == "geom" else OFF
+            copy = math.dist(places[one], places[other]) < SAME and abs(image[axis]) > least
             if copy and alone and _unturned(of, kind, one, other):
                 inward = (places[one][axis] > 0) != above
                 yield Stray(kind, *((one, other) if inward else (other, one)), image, copied=True)

@@ -92,8 +92,9 @@ def range_emptied(model: ReaderModel, random: Random) -> Fault | None:
 
 @kind("range-not-applied", harms=ENDS)
 def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
-    """A joint's range is written, and not applied."""
-    return _set(model, pick(random, _limited(model)), "limited", "false", 1)
+    """A joint's range is written on it, and not applied; that of a class may be taken back on purpose."""
+    own = [each for each in _limited(model) if (written := model.element("joint", each)) and written.get("range")]
+    return _set(model, pick(random, own), "limited", "false", 1)
 
 
 @kind("axis-wrong", "twin-joint-differs", harms=ENDS)

@@ -39,7 +39,7 @@ class Stray:
 def stray(of: Simulation) -> Stray | None:
     """The one part that is copied to the other side, or the one body that differs from its twin in one coordinate."""
     made: list[Stray] = []
-    apart, exact = [], []
+    apart, mirrored = [], []
     for pair in twins(of).pairs["body"]:
         places = [of.row("body_pos", each, 3) for each in pair]
         if of.parent(pair[0]) != of.parent(pair[1]):
@@ -47,14 +47,14 @@ def stray(of: Simulation) -> Stray | None:
         across = [i for i in range(3) if abs(places[0][i] + places[1][i]) < SAME and abs(places[0][i]) > OFF]
         along = [i for i in range(3) if abs(places[0][i] - places[1][i]) < SAME]
         if len(across) == 1 and len(along) == 2:
-            exact.append(pair)
+            mirrored.append(pair)
             if _unturned(of, "body", *pair) and not _cast(of, pair[0]):
                 made += _copied(of, *pair, across[0], places[0][across[0]] > 0)
         elif len(across) == len(along) == 1:
             apart.append((pair, across[0], 3 - across[0] - along[0]))
-    if len(apart) == 1 and exact:
+    if len(apart) == 1 and mirrored:
         pair, axis, other = apart[0]
-        usual = [round(of.row("body_pos", each, 3)[other], 6) for one in exact for each in one]
+        usual = [round(of.row("body_pos", each, 3)[other], 6) for one in mirrored for each in one]
         wrong = [each for each in pair if round(of.row("body_pos", each, 3)[other], 6) not in usual]
         if len(wrong) == 1:
             twin = pair[0] + pair[1] - wrong[0]

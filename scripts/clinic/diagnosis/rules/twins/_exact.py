@@ -63,25 +63,25 @@ def stray(of: Simulation) -> Stray | None:
 
 
 def _copied(of: Simulation, left: int, right: int, axis: int, above: bool) -> Iterator[Stray]:
-    """By pair of bodies and what hangs on them unturned: the parts that have one place on both sides.
+    """By pair of bodies and what hangs on them unturned: the geoms that have one place on both sides.
 
     A geom counts where it is beside its joint, and nothing else hangs on the body: else one part may be built in twice.
     """
-    sides, below = (left, right), [of.children.get(side, []) for side in (left, right)]
-    for kind, both in (("body", below), ("geom", [list(of.geoms_of(side)) for side in sides] if not below[0] else [])):
-        if len({*map(len, both)}) != 1:
-            continue
-        places = {part: of.row(f"{kind}_pos", part, 3) for side in both for part in side}
-        for one, other in zip(*both, strict=True):
-            image = flipped(places[one], axis)
-            alone = not any(math.dist(places[part], image) < SAME for part in both[0])
-            least = BESIDE * of.model("geom_rbound")[one] if kind == "geom" else OFF
-            copy = math.dist(places[one], places[other]) < SAME and abs(image[axis]) > least
-            if copy and alone and _unturned(of, kind, one, other):
-                inward = (places[one][axis] > 0) != above
-                yield Stray(kind, *((one, other) if inward else (other, one)), image, copied=True)
-            elif kind == "body" and _unturned(of, kind, one, other):
-                yield from _copied(of, one, other, axis, above)
+    below, others = (of.children.get(side, []) for side in (left, right))
+    for one, other in zip(below, others, strict=False):
+        if _unturned(of, "body", one, other):
+            yield from _copied(of, one, other, axis, above)
+    geoms = [list(of.geoms_of(side)) for side in (left, right)]
+    if below or others or len(geoms[0]) != len(geoms[1]):
+        return
+    places = {geom: of.row("geom_pos", geom, 3) for side in geoms for geom in side}
+    for one, other in zip(*geoms, strict=True):
+        image = flipped(places[one], axis)
+        alone = not any(math.dist(places[geom], image) < SAME for geom in geoms[0])
+        beside = abs(image[axis]) > BESIDE * of.model("geom_rbound")[one]
+        if alone and beside and math.dist(places[one], places[other]) < SAME and _unturned(of, "geom", one, other):
+            inward = (places[one][axis] > 0) != above
+            yield Stray("geom", *((one, other) if inward else (other, one)), image, copied=True)
 
 
 def _cast(of: Simulation, side: int) -> bool:

@@ -49,9 +49,9 @@ the 100 to 800 comparisons of a model agree. A model in which more than two, and
 be symmetric, and nothing is said. Of four legs or fingers that are called alike, one whose geom is unlike the three
 others by more than 25 %, or in the order of its digits (0.12 for 0.21), is told too; from 8 % on in a hint. A number of
 one twin that is ten, a hundred or a thousand times that of the other to the digit is told in any model. Where two sides
-without meshes are mirrored to the digit across an axis of what they hang on, so is one part that has the very place of
-its twin: a body, or a geom beside its joint on whose body nothing else hangs; and one of two bodies that lies higher or
-farther than its twin and all other pairs.
+without meshes are mirrored to the digit across an axis of what they hang on, so is one geom beside its joint that has
+the very place of its twin, where nothing else hangs on its body; and one of two bodies that lies higher or farther than
+its twin and all other pairs.
 
 When it is wrong: a model that is meant to have a weak side. Where few pairs agree, or the difference is small, it is a
 hint.

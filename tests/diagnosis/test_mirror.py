@@ -197,3 +197,33 @@ def test_ends_of_ranges_that_differ_by_less_than_3_degrees_are_alike(knee, told)
 def test_a_range_that_is_negated_with_its_axis_is_the_same_motion(knee, told):
     turned = f'name="RL_knee" axis="0 -1 0" range="{knee}"'
     assert odd(legs().replace('name="RL_knee" axis="0 1 0" range="-90 0"', turned), "joint") == told
+
+
+FIN = """<body name="fin_{0}" pos="0.02 {1} 0" {4}><joint axis="0 1 0" range="-40 40"/>
+  <geom name="fin_{0}" type="box" size="0.016 0.025 0.002" pos="-0.005 {2} {3}"/></body>"""
+
+
+@pytest.mark.parametrize(
+    ("right", "told"),
+    [
+        (("-0.028", "0.025", "0", ""), ("geom", "-0.005 -0.025 0")),
+        (("-0.028", "-0.025", "0", ""), None),
+        (("-0.028", "0.025", "0", 'euler="180 0 0"'), None),
+    ],
+    ids=["copied", "mirrored", "the part turned"],
+)
+def test_a_part_that_is_copied_to_the_other_side_is_told_of_one_pair_alone(right, told):
+    fins = FIN.format("l", "0.028", "0.025", "0", "") + FIN.format("r", *right)
+    fish = f'<body pos="0 0 1"><freejoint/><geom type="ellipsoid" size="0.1 0.02 0.03"/>{fins}</body>'
+    found = hints(f"<mujoco><worldbody>{fish}</worldbody></mujoco>", "twin-place-differs")
+    assert [(each.elements[0].split()[0], each.value) for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(("height", "told"), [("-0.15", True), ("-0.1", False)])
+def test_a_wheel_that_is_lower_than_its_twin_and_all_others_is_told(height: str, told: bool):
+    wheel = '<body name="{}" pos="{} {} {}"><joint axis="0 1 0"/><geom size="0.1"/></body>'
+    places = [("fl", 0.3, 0.27, -0.1), ("fr", 0.3, -0.27, -0.1), ("rl", -0.3, 0.27, height), ("rr", -0.3, -0.27, -0.1)]
+    wheels = "".join(wheel.format(f"wheel_{name}", *place) for name, *place in places)
+    car = f'<body pos="0 0 1"><freejoint/><geom type="box" size="0.4 0.2 0.05"/>{wheels}</body>'
+    found = hints(f"<mujoco><worldbody>{car}</worldbody></mujoco>", "twin-place-differs")
+    assert [(each.elements[0], each.value) for each in found] == [('body "wheel_rl"', "-0.3 0.27 -0.1")] * told

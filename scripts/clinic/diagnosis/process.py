@@ -259,13 +259,10 @@ def main() -> None:
             print(f"trying {MEASURING}", flush=True)
             told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
             made = replace(made, measured=told)
-    except RecursionError:
-        print(
-            f"wrong {request.name}: the model is too large: its elements stand too deep within one another", flush=True
-        )
-        return
-    except MemoryError as error:
-        said = error if "MuJoCo" in str(error) else "the model is too large: there is not memory enough"
+    except (MemoryError, RecursionError) as error:
+        deep = isinstance(error, RecursionError)
+        why = "its elements stand too deep within one another" if deep else "there is not memory enough"
+        said = error if "MuJoCo" in str(error) else f"the model is too large: {why}"
         print(f"wrong {request.name}: {said}", flush=True)
         return
     except StartError as error:

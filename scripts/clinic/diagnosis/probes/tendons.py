@@ -92,8 +92,8 @@ def targets(of: Simulation, actuator: int) -> tuple[float, float] | None:
 
 
 def winches(of: Simulation) -> list[int]:
-    """The actuators that pull a tendon to a length."""
-    return [each for each in pulled(of) if affine(of, each) and of.gain(each)[0] and of.bias(each)[1] < 0]
+    """The position servos on tendons."""
+    return [each for each in pulled(of) if servo(of, each) is not None]
 
 
 @probe("what still swings 1.5 s after a step of 1 % of a tendon's length, as a share of the step")
@@ -104,17 +104,20 @@ def swings_on(of: Simulation, actuators: Sequence[int]) -> float:
 
 @kept
 def _swings(of: Simulation, actuator: int) -> float:
+    tendons = pulled(of)
     with alone(of, gravity=True):
         of.begin()
         hold(of)
-        begun = list(of.data("actuator_length"))
-        for each in winches(of):
-            goal = begun[each] + STEP * abs(begun[each]) * (each == actuator)
-            of.engine.write("ctrl", [(-of.bias(each)[1] * goal - of.bias(each)[0]) / of.gain(each)[0]], each)
-        seen = [of.data("actuator_length")[actuator] for _ in of.run(SECONDS, samples=600)]
+        begun = list(of.data("ten_length"))
+        step = STEP * begun[tendons[actuator]]
+        for each, tendon in tendons.items():
+            if (line := servo(of, each)) is not None:
+                goal = begun[tendon] + step * (each == actuator)
+                of.engine.write("ctrl", [(goal - line[0]) / line[1]], each)
+        seen = [of.data("ten_length")[tendons[actuator]] for _ in of.run(SECONDS, samples=600)]
     late = seen[len(seen) // 2 :]
     ways = [after - before for before, after in pairwise(late)]
     turns = sum(before * after < 0 for before, after in pairwise(ways))
-    if of.unstable() or turns < TURNS or not begun[actuator]:
+    if of.unstable() or turns < TURNS or not step:
         return 0.0
-    return (max(late) - min(late)) / 2 / (STEP * abs(begun[actuator]))
+    return abs((max(late) - min(late)) / 2 / step)

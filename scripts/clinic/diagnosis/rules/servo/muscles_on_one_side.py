@@ -35,7 +35,7 @@ Good:
     +     <site name="back" pos="-0.03 0.01 1.2"/>
 
 The number: hinges with a range, and without a spring, another actuator and an equality, on which two muscles and more
-have a lever arm of more than 1 mm, all to the same side, in seven poses between the ends of all ranges.
+have a lever arm of more than 1 mm, all to the same side, at the start and in 16 poses drawn over all ranges.
 
 When it is wrong: a joint that its weight is to bring back. So it is a hint.
 """
@@ -46,8 +46,9 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import GAIN_MUSCLE, HINGE
 from clinic.diagnosis.probes.couplings import couplings
+from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Muscles that all pull a joint one way"
@@ -55,7 +56,6 @@ FAMILIES = ("stuck", "passes-limit")
 UNPLANTED = "the bench's healthy models have hardly any muscles"
 
 LEAST, STEP = 1e-3, 1e-3  # m, rad
-SHARES = (0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -71,6 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(told, "tendon", names[0], "one on either side", (), probe, 0, says, "0", level="hint")
 
 
+@kept
 def _one_way(of: Simulation) -> dict[int, list[int]]:
     """By hinge that goes one way alone: the muscles that turn it."""
     muscles = [each for each, kind in enumerate(of.model("actuator_gaintype")) if int(kind) == GAIN_MUSCLE]
@@ -78,25 +79,31 @@ def _one_way(of: Simulation) -> dict[int, list[int]]:
         return {}
     others = {of.driven_joint(each) for each in range(of.count("actuator")) if each not in muscles}
     held = others | {joint for _, (*two, _) in couplings(of) for joint in two}
+    hinges = [joint for joint in of.ranges if of.joint_type(joint) == HINGE and joint not in held]
+    arms = _arms(of, [joint for joint in hinges if not of.model("jnt_stiffness")[joint]])
     made = {}
-    for joint in of.ranges:
-        if of.joint_type(joint) != HINGE or joint in held or of.model("jnt_stiffness")[joint]:
-            continue
-        arms = [_arms(of, joint, share) for share in SHARES]
-        acting = [each for each in muscles if max(abs(arm[each]) for arm in arms) > LEAST]
-        signs = {arm[each] > 0 for each in acting for arm in arms if abs(arm[each]) > LEAST / 10}
+    for joint, over_poses in arms.items():
+        acting = [each for each in muscles if max(abs(arm[each]) for arm in over_poses) > LEAST]
+        signs = {arm[each] > 0 for each in acting for arm in over_poses if abs(arm[each]) > LEAST / 10}
         if len(acting) > 1 and len(signs) == 1:
             made[joint] = acting
     return made
 
 
-def _arms(of: Simulation, joint: int, share: float) -> list[float]:
-    """By actuator: how much longer it becomes as the hinge turns, in m/rad, all joints at a share of their ranges."""
-    lengths = []
-    for side in (-1, 1):
-        of.begin(forward=False)
-        for each, (low, high) in of.ranges.items():
-            of.put(each, low + share * (high - low) + side * STEP * (each == joint))
-        of.engine.forward()
-        lengths.append(of.data("actuator_length"))
-    return [(after - before) / (2 * STEP) for before, after in zip(*lengths, strict=True)]
+def _arms(of: Simulation, hinges: list[int]) -> dict[int, list[list[float]]]:
+    """By hinge and pose: how much longer each actuator becomes as the hinge turns, in m/rad."""
+    made: dict[int, list[list[float]]] = {joint: [] for joint in hinges}
+    for pose in poses(of):
+        begun = _lengths(of, pose)
+        for joint, arms in made.items():
+            turned = [*pose]
+            turned[of.place(joint)] += STEP
+            arms.append([(after - before) / STEP for before, after in zip(begun, _lengths(of, turned), strict=True)])
+    return made
+
+
+def _lengths(of: Simulation, pose: list[float]) -> list[float]:
+    of.begin(forward=False)
+    of.engine.write("qpos", pose)
+    of.engine.forward()
+    return list(of.data("actuator_length"))

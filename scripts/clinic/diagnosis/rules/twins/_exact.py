@@ -10,7 +10,7 @@ from clinic.diagnosis.engine import MESH
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.probes.vector import Vector, flipped, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 SAME, OFF = 1e-6, 1e-4  # m: of two places, and from the plane between both sides
@@ -36,6 +36,7 @@ class Stray:
     copied: bool
 
 
+@kept
 def stray(of: Simulation) -> Stray | None:
     """The one part that is copied to the other side, or the one body that differs from its twin in one coordinate."""
     made: list[Stray] = []

@@ -64,9 +64,8 @@ def _up(simulation: Simulation) -> tuple[float, ...]:
     """Away from the floor; where there is none, and nothing but hinges about z, against a gravity across them."""
     simulation.begin()
     ups = list(_planes(simulation)) or list(_slabs(simulation))
-    level = [up for up in ups if up[2] > 0.5]
-    if level or ups:
-        return (0.0, 0.0, 1.0) if level else ups[0]
+    if ups:
+        return (0.0, 0.0, 1.0) if any(up[2] > 0.5 for up in ups) else ups[0]
     hinges = [joint for joint in range(simulation.count("joint")) if simulation.joint_type(joint) == HINGE]
     upright = bool(hinges) and all(abs(simulation.data("xaxis")[3 * joint + 2]) > ALONG for joint in hinges)
     x, y, z = simulation.model("opt.gravity")
